@@ -1,0 +1,74 @@
+#pragma once
+
+#include "compiler/ir/function.h"
+#include "lang/source.h"
+#include "runtime/camera.h"
+#include "runtime/light.h"
+#include "runtime/material.h"
+#include "runtime/math/affine.h"
+#include "runtime/scene.h"
+#include "runtime/shapes/list.h"
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+/// The scene as every backend sees it: resolved, typed, free of syntax. Numbers are doubles; lengths are world units.
+namespace scc::compiler::ir {
+
+template <class List>
+struct VariantOf;
+template <class... Ts>
+struct VariantOf<runtime::TypeList<Ts...>> {
+    using type = std::variant<Ts...>;
+};
+/// One alternative per row of runtime::Shapes, with double members in object space.
+using Shape = VariantOf<runtime::Shapes<double>>::type;
+
+struct Material {
+    std::string name; ///< the author's `let`, else made from the object; unique
+    runtime::Phong<double> phong; ///< Varying::function indexes Scene::functions
+    lang::Span span;
+};
+
+struct Object {
+    Shape shape;
+    runtime::Affine<double> world_from_object; ///< identity where the shape stands in world coordinates
+    runtime::Sides sides;                      ///< indices into Scene::materials
+    std::string path;                          ///< stable: `table/leg[2]`; unique
+    lang::Span span;
+};
+
+struct Light {
+    std::variant<runtime::PointLight<double>, runtime::DirectionalLight<double>> light;
+    std::string name; ///< unique
+    lang::Span span;
+};
+
+/// A triangle mesh in object space. Three indices per triangle, counter-clockwise seen from the front.
+struct Mesh {
+    std::string name;                    ///< file name without folder and extension; unique
+    std::vector<float> positions;        ///< x y z each
+    std::vector<float> normals;          ///< x y z each, unit; empty: flat shading
+    std::vector<std::uint32_t> indices;  ///< into positions
+    std::vector<std::uint32_t> normal_indices; ///< into normals; same length as indices, or empty
+};
+
+struct Scene {
+    std::string name; ///< of the file, without folder and extension
+    std::vector<Material> materials;
+    std::vector<Object> objects; ///< in source order, groups flattened
+    std::vector<Light> lights;   ///< enabled ones
+    std::vector<Mesh> meshes;
+    std::vector<Function> functions;
+    runtime::Camera<double> camera;
+    double near = 0.1, far = 1000; ///< of the camera; ray casting does not clip by them
+    lang::Span camera_span;
+    runtime::Rgb<double> ambient{0.1, 0.1, 0.1}; ///< Ia
+    runtime::Rgb<double> background{0, 0, 0};
+    runtime::RenderSettings settings;
+    runtime::SceneTraits traits; ///< by the pass derive_traits
+};
+
+} // namespace scc::compiler::ir

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "lang/ast.h"
+#include "lang/diagnostic.h"
+#include "lang/schema.h"
+#include "lang/source.h"
+#include "lang/value.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace scc::lang {
+
+/// One `-D name=value` of the command line.
+struct Definition {
+    std::string name;
+    std::string value;
+};
+
+/// A `param` as `scc params` lists it.
+struct Param {
+    std::string name;
+    Type type;
+    Value default_value;
+    Value value; ///< in force
+    std::optional<std::pair<double, double>> range;
+    std::string text;
+    Span span;
+};
+
+/// What bounds a run on hostile input; exceeding one is a clear error.
+struct EvaluationLimits {
+    std::uint64_t steps = 50'000'000; ///< expressions evaluated
+    std::uint32_t call_depth = 500;
+    std::uint64_t list_length = 20'000'000;
+    std::uint64_t string_length = 1'000'000;
+};
+
+/// A scene file after checking and evaluation: the things on its top level, in order. Keeps the syntax trees
+/// alive that its closures refer to. Only meaningful if no error was reported.
+struct Module {
+    std::vector<ThingPtr> items;
+    std::vector<Param> params;
+    std::shared_ptr<const void> storage;
+};
+
+/// Types every expression of the file against the schema, reporting all errors, and evaluates it if there were none.
+/// A `-D` that names no `param` is reported at no place (Span{}) as unknown-param.
+Module check(std::shared_ptr<const ast::File> file, const Schema& schema, const std::vector<Definition>& definitions,
+             SourceSet& sources, Diagnostics& diagnostics, const EvaluationLimits& limits = {});
+
+/// Runs a per-point function on an unknown surface and hands every operation to the builder. Returns one scalar for a
+/// number, three for a colour or vector; constant where the function does not depend on the surface. What a
+/// per-point function may not do (recursion, shapes, unknown loop bounds) is reported.
+std::vector<Scalar> trace(const ClosurePtr& function, SymbolBuilder& builder, Diagnostics& diagnostics);
+
+/// The name of the `fn` or `let` that a function value came from; empty for a lambda.
+std::string_view name_of(const Closure& function);
+/// Where the function was written.
+Span span_of(const Closure& function);
+
+/// As the language writes it, numbers round-trip: `(1, 0.5, 0)`, `rgb(1, 1, 1)`, `30deg`, `"text"`.
+std::string to_string(const Value& value);
+
+} // namespace scc::lang

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "lang/ast.h"
+#include "lang/diagnostic.h"
+#include "lang/lexer.h"
+#include "lang/source.h"
+
+#include <memory>
+#include <vector>
+
+namespace scc::lang {
+
+/// Brackets, operators and blocks may nest this deep; deeper is reported and skipped.
+inline constexpr int max_nesting = 128;
+
+/// Recursive descent over the grammar in grammar.md. After a mistake it goes on at the next item, so one run reports
+/// all of them; the tree then holds ErrorExpr nodes.
+ast::File parse(const SourceSet& sources, FileId file, const std::vector<Token>& tokens, Diagnostics& diagnostics);
+
+/// lex and parse in one go.
+std::shared_ptr<const ast::File> parse_file(const SourceSet& sources, FileId file, Diagnostics& diagnostics);
+
+/// A single expression from its own file (the value of a `-D`).
+ast::ExprPtr parse_expression(const SourceSet& sources, FileId file, Diagnostics& diagnostics);
+
+} // namespace scc::lang

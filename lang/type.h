@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace scc::lang {
+
+enum class TypeKind {
+    error, ///< of what was reported already; fits everywhere, so that one mistake stays one message
+    number,
+    angle,
+    boolean,
+    string,
+    vec2,
+    vec3,
+    color,
+    transform,
+    range,   ///< `0..n`
+    surface, ///< what a per-point function sees
+    shape,
+    material,
+    light,
+    camera,
+    image,
+    setting, ///< `world`, `render`
+    method,  ///< `ray`, `raster`
+    list,     ///< args[0] is the element
+    function, ///< args are the parameters, then the result
+};
+
+/// A type of the language, compared by structure.
+struct Type {
+    TypeKind kind = TypeKind::error;
+    std::vector<Type> args;
+
+    Type() = default;
+    Type(TypeKind k) : kind(k) {}
+    Type(TypeKind k, std::vector<Type> a) : kind(k), args(std::move(a)) {}
+
+    static Type list_of(Type element) { return {TypeKind::list, {std::move(element)}}; }
+    static Type function(std::vector<Type> parameters, Type result) {
+        parameters.push_back(std::move(result));
+        return {TypeKind::function, std::move(parameters)};
+    }
+    friend bool operator==(const Type&, const Type&) = default;
+};
+
+/// As an author writes it: `number`, `[vec3]`, `fn(surface) -> color`.
+std::string to_string(const Type& type);
+
+} // namespace scc::lang
