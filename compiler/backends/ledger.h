@@ -1,0 +1,24 @@
+#pragma once
+
+#include "lang/source.h"
+
+#include <string>
+#include <vector>
+
+namespace scc::compiler {
+
+enum class Fidelity { exact, approximated, dropped };
+
+/// How one feature of the scene went into an export.
+struct LedgerEntry {
+    Fidelity fidelity = Fidelity::exact;
+    std::string feature; ///< what the author wrote: "cylinder", "point_light attenuation", "two_sided"
+    std::string subject; ///< path or name of the object, light or material
+    lang::Span span;     ///< where it was written
+    std::string how;     ///< by which means; for a dropped feature, why
+    double bound = 0;    ///< of an approximation: largest error in the unit that `how` states
+};
+
+using Ledger = std::vector<LedgerEntry>;
+
+} // namespace scc::compiler
