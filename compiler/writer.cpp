@@ -12,24 +12,34 @@ bool is_plain(char c) {
     return c >= 0x20 && c < 0x7f;
 }
 
-// SDL has no numeric escapes, so what it cannot write becomes `?`; only comments and file names are quoted there.
+// SDL has no numeric escapes, so what it cannot write becomes `?`; only comments and file names are quoted
+// there.
 std::string escaped(Language language, char c) {
     switch (c) {
-    case '"': return "\\\"";
-    case '\\': return "\\\\";
-    case '\n': return language == Language::sdl ? "?" : "\\n";
-    case '\t': return language == Language::sdl ? "?" : "\\t";
-    case '?': return language == Language::cpp ? "\\?" : "?"; // no trigraphs
-    default: break;
+    case '"':
+        return "\\\"";
+    case '\\':
+        return "\\\\";
+    case '\n':
+        return language == Language::sdl ? "?" : "\\n";
+    case '\t':
+        return language == Language::sdl ? "?" : "\\t";
+    case '?':
+        return language == Language::cpp ? "\\?" : "?"; // no trigraphs
+    default:
+        break;
     }
     if (is_plain(c)) {
         return {c};
     }
     const auto byte = static_cast<unsigned char>(c);
     switch (language) {
-    case Language::cpp: return fmt::format("\\{:03o}", byte);
-    case Language::python: return fmt::format("\\x{:02x}", byte);
-    case Language::sdl: break;
+    case Language::cpp:
+        return fmt::format("\\{:03o}", byte);
+    case Language::python:
+        return fmt::format("\\x{:02x}", byte);
+    case Language::sdl:
+        break;
     }
     return "?";
 }
@@ -64,9 +74,11 @@ std::string quote(Language language, std::string_view text) {
 std::string comment_text(std::string_view text) {
     std::string result;
     for (const char c : text) {
-        // A comment that ends in a backslash would swallow the next line in C++; `*/` and `/*` would end or open one.
-        const bool unsafe = !is_plain(c) || c == '\\' || (!result.empty() && ((result.back() == '*' && c == '/') ||
-                                                                              (result.back() == '/' && c == '*')));
+        // A comment that ends in a backslash would swallow the next line in C++; `*/` and `/*` would end or
+        // open one.
+        const bool unsafe =
+            !is_plain(c) || c == '\\' ||
+            (!result.empty() && ((result.back() == '*' && c == '/') || (result.back() == '/' && c == '*')));
         result += unsafe ? '?' : c;
     }
     return result;

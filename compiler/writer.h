@@ -34,19 +34,20 @@ private:
     int width_;
 };
 
-/// The shortest text that reads back as exactly this double, with a decimal point or exponent. Must be finite.
+/// The shortest text that reads back as exactly this double, with a decimal point or exponent. Must be
+/// finite.
 std::string number(double value);
 
-/// A string literal of the language that no content can leave: quotes, backslashes, line ends and bytes outside
-/// printable ASCII are escaped.
+/// A string literal of the language that no content can leave: quotes, backslashes, line ends and bytes
+/// outside printable ASCII are escaped.
 std::string quote(Language language, std::string_view text);
 
-/// Text that is safe inside a one-line comment: line ends, other control characters and whatever could end or open
-/// a comment are replaced.
+/// Text that is safe inside a one-line comment: line ends, other control characters and whatever could end or
+/// open a comment are replaced.
 std::string comment_text(std::string_view text);
 
-/// Hands out identifiers made from authors' names: letters, digits and `_` only, distinct. The prefix keeps them apart
-/// from the reserved words of the language they are written in.
+/// Hands out identifiers made from authors' names: letters, digits and `_` only, distinct. The prefix keeps
+/// them apart from the reserved words of the language they are written in.
 class Identifiers {
 public:
     explicit Identifiers(std::string prefix) : prefix_(std::move(prefix)) {}

@@ -47,7 +47,7 @@ struct TypeExpr {
 
 // ---- expressions ---------------------------------------------------------------------------------------
 
-enum class Unit { none, deg, rad, mm, cm, m, km, inch };
+enum class Unit : std::uint8_t { none, deg, rad, mm, cm, m, km, inch };
 enum class UnaryOp { minus, logical_not };
 enum class BinaryOp { then, logical_or, logical_and, eq, ne, lt, le, gt, ge, range, add, sub, mul, div, mod, pow };
 

@@ -45,6 +45,7 @@ struct EvaluationLimits {
 struct Module {
     std::vector<ThingPtr> items;
     std::vector<Param> params;
+    std::vector<std::string> prints; ///< what `print` said, in order
     std::shared_ptr<const void> storage;
 };
 

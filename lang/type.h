@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -48,5 +49,13 @@ struct Type {
 
 /// As an author writes it: `number`, `[vec3]`, `fn(surface) -> color`.
 std::string to_string(const Type& type);
+/// With its article, for messages: `a number`, `an angle`, `a list of vec3`.
+std::string described(const Type& type);
+
+/// Whether a value of type `actual` may stand where `wanted` is expected; the error type fits everywhere.
+bool fits(const Type& wanted, const Type& actual);
+/// The type with this name, if it is one word.
+const TypeKind* named_type(std::string_view name);
+std::vector<std::string_view> type_names();
 
 } // namespace scc::lang

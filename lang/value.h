@@ -87,6 +87,7 @@ struct Thing {
     std::vector<ThingPtr> children;  ///< items of a group, in order
     std::string name;                ///< of the `let` or `fn` that made it, else empty
     Span span;                       ///< of the constructor expression
+    std::uint32_t height = 1;        ///< things that stand within each other, at most
 
     const FieldValue* find(std::string_view field) const;
     /// The author's value, else the schema's default; null for an optional field that was not set.

@@ -1,14 +1,19 @@
 #pragma once
 
+#include "runtime/accel/bvh_node.h"
 #include "runtime/camera.h"
+#include "runtime/function.h"
 #include "runtime/light.h"
 #include "runtime/material.h"
 #include "runtime/math/affine.h"
+#include "runtime/mesh_data.h"
 #include "runtime/shapes/list.h"
 
 #include <array>
+#include <concepts>
+#include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <tuple>
 #include <vector>
 
 namespace scc::runtime {
@@ -67,6 +72,164 @@ struct RenderSettings {
     int samples_per_axis = 1; ///< n of n x n sub-pixel centres
     int depth = 5;            ///< mirror bounces
     bool shadows = true;
+};
+
+/// Two kinds of primitives per row of Shapes: even bare, odd placed.
+template <class List>
+struct PrimitiveKinds;
+template <class... Shape>
+struct PrimitiveKinds<TypeList<Shape...>> {
+    static constexpr std::uint32_t count = 2 * sizeof...(Shape);
+    template <std::uint32_t kind>
+    using ShapeOf = std::tuple_element_t<kind / 2, std::tuple<Shape...>>;
+};
+inline constexpr std::uint32_t primitive_kinds = PrimitiveKinds<Shapes<double>>::count;
+
+template <class R, std::uint32_t kind>
+using ShapeOfKind = typename PrimitiveKinds<Shapes<R>>::template ShapeOf<kind>;
+template <class R, std::uint32_t kind>
+using PrimitiveOfKind =
+    std::conditional_t<kind % 2 == 0, Bare<ShapeOfKind<R, kind>>, Placed<ShapeOfKind<R, kind>, R>>;
+
+constexpr bool uses_kind(const SceneTraits& traits, std::uint32_t kind) {
+    return ((kind % 2 == 0 ? traits.bare_shapes : traits.placed_shapes) >> (kind / 2) & 1U) != 0;
+}
+
+/// Up to this many bounded shapes, looking at each costs less than a hierarchy.
+inline constexpr std::size_t accelerator_threshold = 12;
+
+struct PrimitiveRef {
+    std::uint32_t kind = 0;
+    std::uint32_t index = 0;
+};
+
+/// A hierarchy over the bounded shapes; without nodes where they are too few (see prepare in accel/build.h).
+struct Accelerator {
+    std::vector<BvhNode> nodes;
+    std::vector<PrimitiveRef> primitives; ///< in the order of the leaves
+};
+
+/// Names one of a scene's tables of primitives.
+template <class Primitive>
+struct Of {};
+
+/// The parts of a scene that most scenes lack, for a scene type to inherit and to hide.
+template <class R>
+struct SceneBase {
+    using Real = R;
+
+    template <class Primitive>
+    static constexpr std::array<Primitive, 0> primitives(Of<Primitive>) {
+        return {};
+    }
+    static constexpr std::array<PointLight<R>, 0> point_lights{};
+    static constexpr std::array<DirectionalLight<R>, 0> directional_lights{};
+    static constexpr std::array<MeshData, 0> meshes{};
+    static constexpr Camera<R> camera{};
+    static constexpr Rgb<R> ambient{};
+    static constexpr Rgb<R> background{};
+
+    template <class L>
+    static Rgb<L> color_function(std::int32_t, const SurfacePoint<L>&) {
+        return {};
+    }
+    template <class L>
+    static L number_function(std::int32_t, const SurfacePoint<L>&) {
+        return L(0);
+    }
+};
+
+/// What the kernels are compiled for. Its traits say what it contains; what they deny is not looked at.
+///
+/// A compiled scene is a type with its data as constants and nothing of its own but the per-point functions:
+///
+///     struct Scene : SceneBase<double> {
+///         using R = double;
+///         static constexpr SceneTraits traits{.bare_shapes = 1U << 2, .point_lights = true, ...};
+///         using SceneBase<R>::primitives;
+///         static constexpr std::array<Bare<Plane<R>>, 1> bare_plane{{{{.normal = {0, 1, 0}}, {.id = 0}}}};
+///         static constexpr const auto& primitives(Of<Bare<Plane<R>>>) { return bare_plane; }
+///         static constexpr std::array<Phong<R>, 1> materials{{...}};
+///         static constexpr std::array<PointLight<R>, 1> point_lights{{...}};
+///         static constexpr Camera<R> camera{...};
+///         static constexpr Rgb<R> ambient{...}, background{...};
+///         template <class L>
+///         static Rgb<L> color_function(std::int32_t index, const SurfacePoint<L>& s) {
+///             switch (index) {
+///             case 0: {
+///                 const L v0 = s.p.x;
+///                 const L v1 = round_down(v0);  // one statement per node, in the order of ir::Function::nodes
+///                 return {v1, v1, v1};
+///             }
+///             default: return {};
+///             }
+///         }
+///         std::vector<MeshData> meshes;    // only with meshes: filled in main() before rendering
+///         Accelerator accelerator;         // only with traits.accelerator: filled by prepare(scene)
+///     };
+///
+/// Tables that are absent are left out; tables too large for constants may be std::vector members. Every table is in
+/// source order (Tag::id ascending), as the generic scene has it; both then draw the same bits.
+template <class S>
+concept SceneModel = requires(const S& s, const SurfacePoint<typename S::Real>& point) {
+    { S::traits } -> std::convertible_to<SceneTraits>;
+    { s.materials[0] } -> std::convertible_to<Phong<typename S::Real>>;
+    s.point_lights.size();
+    s.directional_lights.size();
+    s.meshes.size();
+    { s.camera } -> std::convertible_to<Camera<typename S::Real>>;
+    { s.ambient } -> std::convertible_to<Rgb<typename S::Real>>;
+    { s.background } -> std::convertible_to<Rgb<typename S::Real>>;
+    s.primitives(Of<PrimitiveOfKind<typename S::Real, 0>>{}).size();
+    { s.color_function(0, point) } -> std::convertible_to<Rgb<typename S::Real>>;
+    { s.number_function(0, point) } -> std::convertible_to<typename S::Real>;
+};
+
+template <class R, class Kinds = std::make_integer_sequence<std::uint32_t, primitive_kinds>>
+struct PrimitiveTables;
+template <class R, std::uint32_t... kind>
+struct PrimitiveTables<R, std::integer_sequence<std::uint32_t, kind...>> {
+    std::tuple<std::vector<PrimitiveOfKind<R, kind>>...> tables;
+};
+
+/// The scene whose content is known at run time only. Fill the tables, then call prepare (accel/build.h).
+template <class R>
+struct DynamicScene {
+    using Real = R;
+    static constexpr SceneTraits traits = everything;
+
+    PrimitiveTables<R> shapes;
+    std::vector<Phong<R>> materials;
+    std::vector<PointLight<R>> point_lights;
+    std::vector<DirectionalLight<R>> directional_lights;
+    std::vector<MeshData> meshes;
+    std::vector<FunctionProgram<R>> functions; ///< Varying::function indexes it
+    Camera<R> camera;
+    Rgb<R> ambient{};
+    Rgb<R> background{};
+    Accelerator accelerator;
+
+    template <class Primitive>
+    const std::vector<Primitive>& primitives(Of<Primitive>) const {
+        return std::get<std::vector<Primitive>>(shapes.tables);
+    }
+    /// Appends to the primitive's table; call in the order of Tag::id.
+    template <class Primitive>
+    void add(const Primitive& primitive) {
+        std::get<std::vector<Primitive>>(shapes.tables).push_back(primitive);
+    }
+
+    template <class L>
+    Rgb<L> color_function(std::int32_t index, const SurfacePoint<L>& point) const {
+        const FunctionProgram<R>& program = functions[static_cast<std::size_t>(index)];
+        const L* registers = run(program, point);
+        return {registers[program.results[0]], registers[program.results[1]], registers[program.results[2]]};
+    }
+    template <class L>
+    L number_function(std::int32_t index, const SurfacePoint<L>& point) const {
+        const FunctionProgram<R>& program = functions[static_cast<std::size_t>(index)];
+        return run(program, point)[program.results[0]];
+    }
 };
 
 } // namespace scc::runtime

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,9 +10,11 @@
 /// Per-point functions as straight-line code over scalars; shared sub-expressions are stored once.
 namespace scc::compiler::ir {
 
-/// What a per-point function can read, all of them scalars of the hit: p in object space, world in world space,
-/// n the unit geometric normal in world space.
+/// What a per-point function can read, all of them scalars of the hit: p in object space, world in world
+/// space, n the unit geometric normal in world space.
 enum class Input : std::uint8_t { p_x, p_y, p_z, world_x, world_y, world_z, n_x, n_y, n_z };
+inline constexpr int input_count = 9;
+std::string_view name(Input input);
 
 /// Rows of runtime/operators.def.
 enum class Op : std::uint8_t {
@@ -26,6 +29,7 @@ struct OperatorRow {
     std::string_view cpp, sdl, blender; ///< spellings; see runtime/operators.def
 };
 const OperatorRow& row(Op op);
+std::optional<Op> find_operator(std::string_view name);
 
 struct Node {
     enum class Kind : std::uint8_t { constant, input, apply } kind = Kind::constant;
@@ -38,7 +42,7 @@ struct Node {
 struct Function {
     std::string name; ///< the author's, or made from the field it stands in
     std::vector<Node> nodes;
-    std::vector<std::uint32_t> results; ///< 1 for a number, 3 for a colour
+    std::vector<std::uint32_t> results;        ///< 1 for a number, 3 for a colour
     bool reads(Input first, Input last) const; ///< some node reads an input of this range
 };
 

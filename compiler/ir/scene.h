@@ -14,7 +14,8 @@
 #include <variant>
 #include <vector>
 
-/// The scene as every backend sees it: resolved, typed, free of syntax. Numbers are doubles; lengths are world units.
+/// The scene as every backend sees it: resolved, typed, free of syntax. Numbers are doubles; lengths are
+/// world units.
 namespace scc::compiler::ir {
 
 template <class List>
@@ -27,7 +28,7 @@ struct VariantOf<runtime::TypeList<Ts...>> {
 using Shape = VariantOf<runtime::Shapes<double>>::type;
 
 struct Material {
-    std::string name; ///< the author's `let`, else made from the object; unique
+    std::string name;             ///< the author's `let`, else made from the object; unique
     runtime::Phong<double> phong; ///< Varying::function indexes Scene::functions
     lang::Span span;
 };
@@ -48,10 +49,10 @@ struct Light {
 
 /// A triangle mesh in object space. Three indices per triangle, counter-clockwise seen from the front.
 struct Mesh {
-    std::string name;                    ///< file name without folder and extension; unique
-    std::vector<float> positions;        ///< x y z each
-    std::vector<float> normals;          ///< x y z each, unit; empty: flat shading
-    std::vector<std::uint32_t> indices;  ///< into positions
+    std::string name;                          ///< file name without folder and extension; unique
+    std::vector<float> positions;              ///< x y z each
+    std::vector<float> normals;                ///< x y z each, unit; empty: flat shading
+    std::vector<std::uint32_t> indices;        ///< into positions
     std::vector<std::uint32_t> normal_indices; ///< into normals; same length as indices, or empty
 };
 

@@ -1,30 +1,34 @@
 #pragma once
 
+#include "runtime/host/file.h"
 #include "runtime/image.h"
 
-#include <stdexcept>
 #include <string>
+#include <vector>
 
 /// Image files through OpenImageIO. Linear light in memory; the file's encoding follows from its type.
 namespace scc::host {
 
-/// The environment's fault (a file that cannot be read or written); the text names the file and the reason.
-struct FileError : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-
 struct ImageFileOptions {
-    int bits = 8; ///< of a PNG: 8 or 16
+    int bits = 8;         ///< of a PNG: 8 or 16
+    bool compact = false; ///< an EXR is compressed: less than half the size, six times the time
 };
 
 /// True for `.exr` (32-bit float linear), `.png` (sRGB-encoded), `.pfm` (float linear); case does not matter.
 bool is_image_type_known(const std::string& path);
 
-/// Writes under a temporary name in the same folder, then renames: the final name never holds half a picture.
+/// Writes one or three channels through `replace_file`: the final name never holds half a picture. A PNG
+/// holds values clamped to 0..1 (NaN: 0); float files keep every value. The bytes depend on the picture
+/// alone. Throws FileError; for an unknown type, another number of channels or of bits,
+/// std::invalid_argument.
 void write_image(const std::string& path, const runtime::Image& image, const ImageFileOptions& options = {});
 
+/// The bytes of such a PNG file.
+std::vector<unsigned char> encode_png(const runtime::Image& image, int bits = 8);
+
 /// Reads any type that OpenImageIO knows. Integer files are decoded from sRGB unless `linear_integers`
-/// (a 16-bit PNG that POV-Ray wrote with File_Gamma=1.0). At most the first three channels are kept.
+/// (a 16-bit PNG that POV-Ray wrote with File_Gamma=1.0). At most the first three channels are
+/// kept, and no alpha; of a multi-part file the first part. Throws FileError.
 runtime::Image read_image(const std::string& path, bool linear_integers = false);
 
 } // namespace scc::host

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "runtime/bounds.h"
 #include "runtime/field.h"
 #include "runtime/math/vec.h"
+#include "runtime/ray.h"
 
 #include <string_view>
 #include <tuple>
@@ -20,6 +22,70 @@ struct Box {
         return std::tuple{field("min", &Box::min, Rule::any, "the corner with the smallest coordinates"),
                           field("max", &Box::max, Rule::any, "the corner with the largest coordinates")};
     }
+
+    constexpr Bounds<R> bounds() const { return {min, max}; }
+
+    /// The faces are parts 0 to 5: x min, x max, y min, y max, z min, z max.
+    template <class L>
+    constexpr ShapeHit<L> intersect(const Ray<L>& ray) const {
+        const Slab<L> x(L(min.x), L(max.x), ray.org.x, ray.dir.x);
+        const Slab<L> y(L(min.y), L(max.y), ray.org.y, ray.dir.y);
+        const Slab<L> z(L(min.z), L(max.z), ray.org.z, ray.dir.z);
+        const L entry = maximum(maximum(x.near, y.near), z.near);
+        const L exit = minimum(minimum(x.far, y.far), z.far);
+        const MaskOf<L> crossed = entry <= exit;
+        if (none(crossed)) {
+            return {};
+        }
+        const L t = choose(crossed, first_in_range(ray, entry, exit), infinity<L>());
+        const MaskOf<L> entering = t == entry;
+        const MaskOf<L> x_face = t == choose(entering, x.near, x.far);
+        const MaskOf<L> y_face = t == choose(entering, y.near, y.far);
+        // Of a pair, the face at max is the exit of a ray towards larger coordinates and the entry of others.
+        using Index = IndexOf<L>;
+        const auto face = [&](std::uint32_t first, const L& d) {
+            return choose(entering == (d > 0), Index(first), Index(first + 1));
+        };
+        return {t, choose(x_face, face(0, ray.dir.x), choose(y_face, face(2, ray.dir.y), face(4, ray.dir.z)))};
+    }
+
+    template <class L>
+    constexpr Surface<L> surface(const Ray<L>& ray, const ShapeHit<L>& hit) const {
+        Vec3<L> point = ray.org + hit.t * ray.dir;
+        point = maximum(minimum(point, lanes<L>(max)), lanes<L>(min));
+        Vec3<L> normal{L(0), L(0), L(0)};
+        const auto put = [&](std::uint32_t face, L& coordinate, R value, L& component, int sign) {
+            const MaskOf<L> here = hit.part == IndexOf<L>(face);
+            coordinate = choose(here, L(value), coordinate);
+            component = choose(here, L(sign), component);
+        };
+        put(0, point.x, min.x, normal.x, -1);
+        put(1, point.x, max.x, normal.x, 1);
+        put(2, point.y, min.y, normal.y, -1);
+        put(3, point.y, max.y, normal.y, 1);
+        put(4, point.z, min.z, normal.z, -1);
+        put(5, point.z, max.z, normal.z, 1);
+        // The face's coordinate is exact, and comparing with it is. The bound is for what a transform does to it.
+        const Vec3<R> magnitude = maximum(absolute(min), absolute(max));
+        return {point, lanes<L>(magnitude) * (4 * roundoff<L>()), normal, normal};
+    }
+
+private:
+    /// Where a ray is between two planes. A ray along them is so always or never; on one of them it is.
+    template <class L>
+    struct Slab {
+        L near, far;
+
+        constexpr Slab(const L& low, const L& high, const L& org, const L& dir) {
+            const L inverse = 1 / dir;
+            const L t0 = (low - org) * inverse, t1 = (high - org) * inverse;
+            const MaskOf<L> along = absolute(inverse) == infinity<L>();
+            const MaskOf<L> between = (low <= org) & (org <= high);
+            const L everywhere = choose(between, infinity<L>(), -infinity<L>());
+            near = choose(along, -everywhere, minimum(t0, t1));
+            far = choose(along, everywhere, maximum(t0, t1));
+        }
+    };
 };
 
 } // namespace scc::runtime

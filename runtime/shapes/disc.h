@@ -1,7 +1,9 @@
 #pragma once
 
+#include "runtime/bounds.h"
 #include "runtime/field.h"
 #include "runtime/math/vec.h"
+#include "runtime/ray.h"
 
 #include <string_view>
 #include <tuple>
@@ -23,6 +25,41 @@ struct Disc {
                           field("normal", &Disc::normal, Rule::nonzero_vector, "points to the front side"),
                           field("radius", &Disc::radius, Rule::positive, "outer radius"),
                           field("hole", &Disc::hole, Rule::non_negative, "inner radius")};
+    }
+
+    constexpr Bounds<R> bounds() const {
+        const Vec3<R> n = normalize(normal);
+        const R slack = 16 * roundoff<R>() * (largest_component(absolute(center)) + radius);
+        // Along an axis the disc reaches radius times the sine of the angle between axis and normal.
+        const auto reach = [&](R cosine) { return radius * square_root(maximum(R(0), 1 - cosine * cosine)) + slack; };
+        const Vec3<R> half{reach(n.x), reach(n.y), reach(n.z)};
+        return {center - half, center + half};
+    }
+
+    template <class L>
+    constexpr ShapeHit<L> intersect(const Ray<L>& ray) const {
+        const Vec3<L> n = lanes<L>(normalize(normal));
+        const Vec3<L> to_center = lanes<L>(center) - ray.org;
+        const L t = dot(n, to_center) / dot(n, ray.dir);
+        MaskOf<L> inside = (t >= ray.t_min) & (t <= ray.t_max);
+        if (none(inside)) {
+            return {};
+        }
+        const Vec3<L> from_center = t * ray.dir - to_center;
+        const L distance = dot(from_center, from_center);
+        inside = inside & (distance <= L(radius) * L(radius)) & (distance >= L(hole) * L(hole));
+        return {choose(inside, t, infinity<L>()), {}};
+    }
+
+    template <class L>
+    constexpr Surface<L> surface(const Ray<L>& ray, const ShapeHit<L>& hit) const {
+        const L u = roundoff<L>();
+        const Vec3<L> n = lanes<L>(normalize(normal));
+        const Vec3<L> c = lanes<L>(center);
+        const Vec3<L> from_center = (ray.org - c) + hit.t * ray.dir;
+        const Vec3<L> point = c + (from_center - n * dot(n, from_center));
+        // 16 radii: n.(c - p), here and in intersect.
+        return {point, absolute(point) * (2 * u) + absolute(n) * (16 * u * L(radius)), n, n};
     }
 };
 

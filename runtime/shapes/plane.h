@@ -2,6 +2,7 @@
 
 #include "runtime/field.h"
 #include "runtime/math/vec.h"
+#include "runtime/ray.h"
 
 #include <string_view>
 #include <tuple>
@@ -19,6 +20,22 @@ struct Plane {
     static constexpr auto fields() {
         return std::tuple{field("normal", &Plane::normal, Rule::nonzero_vector, "points to the front side"),
                           field("offset", &Plane::offset, Rule::any, "distance from the origin along the normal")};
+    }
+
+    template <class L>
+    constexpr ShapeHit<L> intersect(const Ray<L>& ray) const {
+        const Vec3<L> n = lanes<L>(normalize(normal));
+        const L t = (L(offset) - dot(n, ray.org)) / dot(n, ray.dir);
+        return {choose((t >= ray.t_min) & (t <= ray.t_max), t, infinity<L>()), {}};
+    }
+
+    template <class L>
+    constexpr Surface<L> surface(const Ray<L>& ray, const ShapeHit<L>& hit) const {
+        const Vec3<L> n = lanes<L>(normalize(normal));
+        const Vec3<L> reached = ray.org + hit.t * ray.dir;
+        const Vec3<L> point = reached - n * (dot(n, reached) - L(offset));
+        // n.p takes 4 roundings of its terms, here and in intersect; |offset| is at most their sum.
+        return {point, absolute(point) * (16 * roundoff<L>()), n, n};
     }
 };
 

@@ -1,7 +1,10 @@
 #pragma once
 
+#include "runtime/bounds.h"
 #include "runtime/field.h"
 #include "runtime/math/vec.h"
+#include "runtime/ray.h"
+#include "runtime/shapes/triangle_test.h"
 
 #include <array>
 #include <string_view>
@@ -24,6 +27,37 @@ struct Triangle {
             required_field("points", &Triangle::points, Rule::any, "the three corners"),
             optional_field("normals", &Triangle::normals, &Triangle::smooth, Rule::nonzero_vector,
                            "normals at the corners, interpolated for shading")};
+    }
+
+    constexpr Bounds<R> bounds() const {
+        Bounds<R> result;
+        for (const Vec3<R>& p : points) {
+            result.add(p);
+        }
+        const Vec3<R> size = result.max - result.min;
+        const Vec3<R> magnitude = maximum(absolute(result.min), absolute(result.max));
+        const R slack = 32 * roundoff<R>() * (largest_component(size) + largest_component(magnitude));
+        return {result.min - Vec3<R>{slack, slack, slack}, result.max + Vec3<R>{slack, slack, slack}};
+    }
+
+    template <class L>
+    constexpr ShapeHit<L> intersect(const Ray<L>& ray) const {
+        const Corners<L> corners{lanes<L>(points[0]), lanes<L>(points[1]), lanes<L>(points[2])};
+        const L t = intersect_triangle(corners, Shear<L>(ray.dir), ray);
+        return {choose((t >= ray.t_min) & (t <= ray.t_max), t, infinity<L>()), {}};
+    }
+
+    template <class L>
+    constexpr Surface<L> surface(const Ray<L>& ray, const ShapeHit<L>&) const {
+        const Corners<L> corners{lanes<L>(points[0]), lanes<L>(points[1]), lanes<L>(points[2])};
+        const Vec3<L> weights = barycentric(corners, Shear<L>(ray.dir), ray.org);
+        Surface<L> result = triangle_surface(corners, weights);
+        if (smooth) {
+            const Corners<L> n{lanes<L>(normalize(normals[0])), lanes<L>(normalize(normals[1])),
+                               lanes<L>(normalize(normals[2]))};
+            result.shading_normal = interpolate_normal(n, weights, result.normal);
+        }
+        return result;
     }
 };
 

@@ -1,0 +1,46 @@
+# ---------------------------------------------------------------- artist look
+# Principled materials, lamps with a size, many samples: to work on, not to compare with.
+def artist_surface(g, fields, hit):
+    shader = g.add("ShaderNodeBsdfPrincipled")
+    reflect = fields.get("reflect", (0.0, 0.0, 0.0))
+    metallic = 0.0 if isinstance(reflect, bpy.types.NodeSocket) else max(reflect)
+    diffuse = fields["diffuse"]
+    if metallic and not isinstance(diffuse, bpy.types.NodeSocket):
+        diffuse = tuple((1 - metallic) * d + r for d, r in zip(diffuse, reflect))
+    g.put(shader.inputs["Base Color"], diffuse)
+    shader.inputs["Metallic"].default_value = min(1.0, metallic)
+    g.put(shader.inputs["Emission"], fields["emission"])
+    shader.inputs["Specular"].default_value = 0.0
+    #: specular
+    specular, shininess = fields["specular"], fields["shininess"]
+    if not isinstance(specular, bpy.types.NodeSocket):
+        shader.inputs["Specular"].default_value = min(1.0, sum(specular) / 3)
+    g.put(shader.inputs["Roughness"], g.f("POWER", g.f("DIVIDE", 2.0, g.f("ADD", shininess, 2.0)), 0.25))
+    #: end
+    if metallic:
+        shader.inputs["Roughness"].default_value = 0.05
+        for link in shader.inputs["Roughness"].links:
+            g.tree.links.remove(link)
+    return shader.outputs[0]
+
+
+def artist_lamp(lamp, light):
+    lamp.color, lamp.energy = light["diffuse"], math.pi
+    #: directional
+    if light["type"] == "SUN":
+        lamp.angle = 0.01
+    #: end
+    #: point
+    if light["type"] == "POINT":
+        lamp.shadow_soft_size, lamp.energy = EXTENT / 100, 4 * math.pi ** 2
+        g, d = lamp_graph(lamp)
+        kc, kl, kq = light.get("attenuation", (1.0, 0.0, 0.0))
+        polynomial = g.f("MULTIPLY_ADD", g.f("MULTIPLY_ADD", kq, d, kl), d, kc)
+        g.put(lamp.node_tree.nodes["Emission"].inputs["Strength"], g.f("DIVIDE", g.f("MULTIPLY", d, d), polynomial))
+    #: end
+
+
+def artist_settings(scene, samples):
+    scene.cycles.samples, scene.cycles.max_bounces = samples, 8
+
+

@@ -1,0 +1,198 @@
+# ---------------------------------------------------------------- hits
+# One node group per kind of surface says where the ray really hit. Position: in the world. Normal: unit, in the
+# world, facing the viewer. Outward: the same, pointing to the front side. Back: 1 where the back side is seen.
+# P: in the coordinates that the shape was written in.
+HIT = dict(Position="Vector", Normal="Vector", Outward="Vector", Back="Float", P="Vector")
+
+
+#: flat
+def flat_hit(o=None):
+    g, _, out = new_group("flat hit", {}, HIT)
+    geometry = g.add("ShaderNodeNewGeometry").outputs
+    g.put(out["Position"], geometry["Position"])
+    g.put(out["Normal"], geometry["Normal"])
+    g.put(out["Outward"], g.v("SCALE", geometry["Normal"], front_sign(g, geometry)))
+    g.put(out["Back"], geometry["Backfacing"])
+    g.put(out["P"], g.add("ShaderNodeTexCoord").outputs["Object"])
+    return g.tree
+
+
+#: end
+def front_sign(g, geometry):
+    return g.f("MULTIPLY_ADD", geometry["Backfacing"], -2.0, 1.0)
+
+
+#: curved smooth
+def normal_to_world(g, normal):
+    """By the inverse transpose; Vector Transform treats a normal as a direction in Blender 3.4."""
+    axes = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    return g.v("NORMALIZE", g.join(*(g.v("DOT_PRODUCT", normal, g.to_object(axis)) for axis in axes)))
+
+
+#: end
+#: curved
+def quadric_hit(name, coefficients, gradient):
+    """Replaces the hit on the tessellated mesh by the root of a t^2 + 2 b t + c = 0 that is nearest to it.
+
+    The mesh stands in unit coordinates; the ray's direction is not normalised there, so t is a world length."""
+    g, _, out = new_group(name + " hit", {}, HIT)
+    geometry = g.add("ShaderNodeNewGeometry").outputs
+    viewer = geometry["Incoming"]
+    start, direction = g.add("ShaderNodeTexCoord").outputs["Object"], g.to_object(g.v("SCALE", viewer, -1.0))
+    a, b, c = coefficients(g, start, direction)
+    root = g.f("SQRT", g.f("MAXIMUM", g.f("SUBTRACT", g.f("MULTIPLY", b, b), g.f("MULTIPLY", a, c)), 0.0))
+    sign = g.f("MULTIPLY_ADD", g.f("GREATER_THAN", b, 0.0), 2.0, -1.0)
+    t = g.f("MULTIPLY", g.f("DIVIDE", c, g.f("MULTIPLY_ADD", sign, root, b)), -1.0)
+    unit = g.v("ADD", start, g.v("SCALE", direction, t))
+    outward = normal_to_world(g, gradient(g, unit))
+    g.put(out["Position"], g.v("SUBTRACT", geometry["Position"], g.v("SCALE", viewer, t)))
+    g.put(out["Normal"], g.v("SCALE", outward, g.f("SIGN", g.v("DOT_PRODUCT", outward, viewer))))
+    g.put(out["Outward"], outward)
+    g.put(out["Back"], geometry["Backfacing"])
+    #: curved_p
+    g.put(out["P"], written_point(g, unit))
+    #: end
+    return g.tree
+
+
+#: end
+#: curved_p
+def written_point(g, unit):
+    """From a mesh's unit coordinates to those that the shape was written in, by the object's own properties."""
+    point = g.attribute("OBJECT", "scc_origin")
+    for axis, scale in zip(("scc_x", "scc_y", "scc_z"), g.split(unit)):
+        point = g.v("ADD", point, g.v("SCALE", g.attribute("OBJECT", axis), scale))
+    return point
+
+
+#: end
+#: sphere
+def sphere_hit(o=None):
+    def coefficients(g, p, d):
+        return (g.v("DOT_PRODUCT", d, d), g.v("DOT_PRODUCT", p, d),
+                g.f("SUBTRACT", g.v("DOT_PRODUCT", p, p), 1.0))
+
+    return quadric_hit("sphere", coefficients, lambda g, unit: unit)
+
+
+#: end
+#: cylinder
+def cylinder_hit(o=None):
+    def across(g, vector):
+        return g.v("MULTIPLY", vector, (1.0, 1.0, 0.0))
+
+    def coefficients(g, p, d):
+        p, d = across(g, p), across(g, d)
+        return (g.v("DOT_PRODUCT", d, d), g.v("DOT_PRODUCT", p, d),
+                g.f("SUBTRACT", g.v("DOT_PRODUCT", p, p), 1.0))
+
+    return quadric_hit("cylinder", coefficients, across)
+
+
+#: end
+#: cap
+def cap_hit(o=None):
+    """The flat ends of a cylinder, whose mesh stands in unit coordinates."""
+    tree = flat_hit()
+    tree.name = "scc cap hit"
+    #: curved_p
+    g = Graph(tree)
+    p = next(n for n in tree.nodes if n.type == "GROUP_OUTPUT").inputs["P"]
+    g.put(p, written_point(g, p.links[0].from_socket))
+    #: end
+    return tree
+
+
+#: end
+#: smooth
+def smooth_hit(o=None):
+    """A flat mesh that is shaded with normals interpolated from its corners."""
+    g, _, out = new_group("smooth hit", {}, HIT)
+    geometry = g.add("ShaderNodeNewGeometry").outputs
+    sign = front_sign(g, geometry)
+    g.put(out["Position"], geometry["Position"])
+    g.put(out["Normal"], g.v("SCALE", normal_to_world(g, g.attribute("GEOMETRY", "scc_normal")), sign))
+    g.put(out["Outward"], g.v("SCALE", geometry["Normal"], sign))
+    g.put(out["Back"], geometry["Backfacing"])
+    g.put(out["P"], g.add("ShaderNodeTexCoord").outputs["Object"])
+    return g.tree
+
+
+#: end
+#: horizon
+def plane_hit(o):
+    """An unbounded plane with a pattern.
+
+    A camera ray's direction in 32 bits puts the hit wrong by whole cells of a pattern near the horizon. There the
+    pattern's point is computed from the indices of the pixel instead: it is a quotient of functions that are linear
+    in column and row, with coefficients cut into pieces so short that the products and the sums are exact."""
+    g, _, out = new_group("hit on " + o["name"], {}, HIT)
+    geometry = g.add("ShaderNodeNewGeometry").outputs
+    g.put(out["Position"], geometry["Position"])
+    g.put(out["Normal"], geometry["Normal"])
+    g.put(out["Outward"], g.v("SCALE", geometry["Normal"], front_sign(g, geometry)))
+    g.put(out["Back"], geometry["Backfacing"])
+    into_object = np.linalg.inv(affine(o.get("world", IDENTITY)))
+    p = g.join(*(g.f("ADD", g.v("DOT_PRODUCT", geometry["Position"], tuple(row[:3])), float(row[3]))
+                 for row in into_object[:3]))
+    index = g.v("FLOOR", g.v("MULTIPLY", g.add("ShaderNodeTexCoord").outputs["Window"], (*SIZE, 0.0)))
+    column, row, _ = g.split(index)
+    numerator, denominator = plane_by_pixel(o, into_object)
+    exact = g.v("DIVIDE", by_pixel(g, numerator, column, row), by_pixel(g, denominator, column, row))
+    seen = g.f("LESS_THAN", g.add("ShaderNodeLightPath").outputs["Ray Depth"], 0.5)
+    g.put(out["P"], choose(g, seen, p, exact))
+    return g.tree
+
+
+def plane_by_pixel(o, into_object):
+    """p = numerator(column, row) / denominator(column, row); each 3 x 3, a row per coordinate: (1, column, row)."""
+    eye, right, up, back = (np.array(CAMERA[k]) for k in ("eye", "right", "up", "back"))
+    normal, offset = world_plane(o)
+    half, (shift_x, shift_y), (width, height) = CAMERA["half_height"], CAMERA["shift"], SIZE
+    # In units of half the height: x = (2 column + 1 - width) / height + 2 shift; rows count from the bottom.
+    x = np.array(((1 - width) / height + 2 * shift_x, 2 / height, 0.0))
+    y = np.array(((1 - height) / height + 2 * shift_y, 0.0, 2 / height))
+    on_window = half * (np.outer(right, x) + np.outer(up, y))
+    constant = np.array((1.0, 0.0, 0.0))
+    if CAMERA["type"] == "PERSP":
+        direction = on_window - np.outer(back, constant)
+        below = normal @ direction
+        above = np.outer(eye, below) + (offset - normal @ eye) * direction
+    else:
+        origin, direction = np.outer(eye, constant) + on_window, -back
+        below = constant * (normal @ direction)
+        above = origin * (normal @ direction) + np.outer(direction, offset * constant - normal @ origin)
+    above = into_object[:3, :3] @ above + np.outer(into_object[:3, 3], below)
+    return above, np.tile(below, (3, 1))
+
+
+def by_pixel(g, coefficients, column, row):
+    """Three linear functions of the pixel's indices, exact until the last few additions."""
+    index_bits = max(SIZE).bit_length()
+    bits = 22 - index_bits
+    largest = np.abs(coefficients * (2.0 ** -index_bits, 1, 1)).max(axis=1)
+    unit = np.where(largest > 0, 2.0 ** np.ceil(np.log2(np.where(largest > 0, largest, 1))), 1.0)
+    rest, total = coefficients, None
+    for _ in range(math.ceil(48 / bits)):
+        unit = unit / 2.0 ** bits
+        piece = np.rint(rest / unit[:, None])
+        rest = rest - piece * unit[:, None]
+        constant, per_column, per_row = (tuple(map(float, piece[:, k])) for k in range(3))
+        part = g.v("MULTIPLY_ADD", g.join(row, row, row), per_row, constant)
+        part = g.v("MULTIPLY_ADD", g.join(column, column, column), per_column, part)
+        scale = tuple(map(float, unit))
+        total = g.v("MULTIPLY", part, scale) if total is None else g.v("MULTIPLY_ADD", part, scale, total)
+    return total
+
+
+#: end
+#: two_sided horizon
+def choose(g, truth, if_not, if_so):
+    """Between two vectors or colours."""
+    node = g.add("ShaderNodeMixRGB")
+    for socket, value in zip(node.inputs, (truth, if_not, if_so)):
+        g.put(socket, value)
+    return node.outputs[0]
+
+
+#: end

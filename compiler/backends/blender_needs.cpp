@@ -1,0 +1,276 @@
+#include "compiler/backends/blender_needs.h"
+
+#include "compiler/bounds.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace scc::compiler {
+
+namespace {
+
+using ir::Input;
+using runtime::Phong;
+using runtime::Vec3;
+
+// Cycles follows a path no further.
+constexpr int most_bounces = 1024;
+// A bounce that can add no more than this share is left out.
+constexpr double least_share = 1e-8;
+
+std::array<std::int32_t, 6> functions_of(const Phong<double>& p) {
+    return {p.ambient.function,  p.diffuse.function, p.specular.function,
+            p.emission.function, p.reflect.function, p.shininess.function};
+}
+
+template <class Wanted>
+bool some_function(const ir::Scene& scene, std::uint32_t material, Wanted wanted) {
+    const auto functions = functions_of(scene.materials[material].phong);
+    return std::any_of(functions.begin(), functions.end(), [&](std::int32_t index) {
+        return index != runtime::no_function && wanted(scene.functions[static_cast<std::size_t>(index)]);
+    });
+}
+
+template <class Wanted>
+bool some_function(const ir::Scene& scene, const ir::Object& object, Wanted wanted) {
+    return some_function(scene, object.sides.front, wanted) || some_function(scene, object.sides.back, wanted);
+}
+
+bool reads_p(const ir::Function& function) {
+    return function.reads(Input::p_x, Input::p_z);
+}
+bool reads_point(const ir::Function& function) {
+    return reads_p(function) || function.reads(Input::world_x, Input::world_z);
+}
+
+// From which sides a mirror that leaves a shape can meet the same shape again.
+struct MirrorView {
+    bool front = false, back = false;
+};
+template <class Shape>
+MirrorView sees_itself(const Shape& shape) {
+    using namespace runtime;
+    if constexpr (std::is_same_v<Shape, Mesh<double>>) {
+        return {true, true};
+    } else if constexpr (std::is_same_v<Shape, Triangle<double>>) {
+        return {shape.smooth, shape.smooth};
+    } else if constexpr (std::is_same_v<Shape, Plane<double>> || std::is_same_v<Shape, Disc<double>>) {
+        return {false, false};
+    } else {
+        return {false, true}; // convex, seen from inside
+    }
+}
+
+class Mirrors {
+public:
+    explicit Mirrors(const ir::Scene& scene) : scene_(scene) {
+        for (const ir::Object& object : scene.objects) {
+            add(object);
+        }
+    }
+
+    int bounces() const {
+        if (scene_.settings.depth <= 0 || count_ == 0) {
+            return 0;
+        }
+        int limit = std::min(scene_.settings.depth, most_bounces);
+        if (count_ == 1 && !sees_itself_) {
+            return 1;
+        }
+        if (strongest_ < 1) {
+            limit = std::min(limit, 1 + static_cast<int>(std::log(least_share) / std::log(strongest_)));
+        }
+        return limit;
+    }
+
+    double cut_off(int bounces) const {
+        const bool complete = bounces == scene_.settings.depth || (count_ == 1 && !sees_itself_) || count_ == 0;
+        return complete ? 0 : std::pow(std::min(strongest_, 1.0), bounces + 1);
+    }
+
+private:
+    void add(const ir::Object& object) {
+        const bool front = reflects(object.sides.front), back = reflects(object.sides.back);
+        if (!front && !back) {
+            return;
+        }
+        ++count_;
+        const MirrorView view = std::visit([](const auto& shape) { return sees_itself(shape); }, object.shape);
+        sees_itself_ |= (front && view.front) || (back && view.back);
+        strongest_ = std::max({strongest_, strength(object.sides.front), strength(object.sides.back)});
+    }
+    bool reflects(std::uint32_t material) const { return is_present(scene_.materials[material].phong.reflect); }
+    double strength(std::uint32_t material) const {
+        const auto& reflect = scene_.materials[material].phong.reflect;
+        return reflect.function != runtime::no_function
+                   ? 1
+                   : std::max({reflect.value.r, reflect.value.g, reflect.value.b});
+    }
+
+    const ir::Scene& scene_;
+    int count_ = 0;
+    bool sees_itself_ = false;
+    double strongest_ = 0;
+};
+
+class NeedsOf {
+public:
+    explicit NeedsOf(const ir::Scene& scene) : scene_(scene) {
+        needs_.materials.resize(scene.materials.size());
+        needs_.functions.resize(scene.functions.size());
+        needs_.meshes.resize(scene.meshes.size());
+    }
+
+    BlenderNeeds find() {
+        for (const ir::Object& object : scene_.objects) {
+            add(object);
+        }
+        for (const ir::Light& light : scene_.lights) {
+            want("light");
+            std::visit([&](const auto& l) { add(l); }, light.light);
+        }
+        for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
+            if (needs_.materials[i]) {
+                add(scene_.materials[i].phong);
+            }
+        }
+        const Mirrors mirrors(scene_);
+        needs_.bounces = mirrors.bounces();
+        needs_.cut_off = mirrors.cut_off(needs_.bounces);
+        if (needs_.bounces > 0) {
+            want("mirror");
+        }
+        measure();
+        return std::move(needs_);
+    }
+
+private:
+    void want(std::string_view feature) { needs_.features.emplace(feature); }
+
+    void add(const ir::Object& object) {
+        needs_.materials[object.sides.front] = needs_.materials[object.sides.back] = true;
+        if (object.sides.front != object.sides.back) {
+            want("two_sided");
+        }
+        std::visit([&](const auto& shape) { add(object, shape); }, object.shape);
+    }
+    void add(const ir::Object&, const runtime::Box<double>&) {
+        want("box");
+        want("flat");
+    }
+    void add(const ir::Object&, const runtime::Disc<double>& disc) {
+        want("disc");
+        want("flat");
+        if (disc.hole > 0) {
+            want("hole");
+        }
+    }
+    void add(const ir::Object& object, const runtime::Sphere<double>&) {
+        want("sphere");
+        add_curved(object);
+    }
+    void add(const ir::Object& object, const runtime::Cylinder<double>& cylinder) {
+        want("cylinder");
+        add_curved(object);
+        if (cylinder.caps) {
+            want("cap");
+            want("flat");
+        }
+    }
+    void add_curved(const ir::Object& object) {
+        want("curved");
+        if (some_function(scene_, object, reads_p)) {
+            want("curved_p");
+        }
+    }
+    void add(const ir::Object& object, const runtime::Plane<double>&) {
+        want("plane");
+        want(has_pattern(object, scene_) ? "horizon" : "flat");
+    }
+    void add(const ir::Object& object, const runtime::Triangle<double>&) {
+        want("triangle");
+        want(is_smooth(object.shape, scene_) ? "smooth" : "flat");
+    }
+    void add(const ir::Object& object, const runtime::Mesh<double>& mesh) {
+        want("mesh");
+        want(is_smooth(object.shape, scene_) ? "smooth" : "flat");
+        needs_.meshes[mesh.mesh] = true;
+    }
+
+    void add(const runtime::PointLight<double>& light) {
+        want("point");
+        if (light.kc != 1 || light.kl != 0 || light.kq != 0) {
+            want("attenuation");
+        }
+    }
+    void add(const runtime::DirectionalLight<double>&) { want("directional"); }
+
+    void add(const Phong<double>& phong) {
+        if (is_present(phong.specular)) {
+            want("specular");
+        }
+        if (is_present(phong.emission)) {
+            want("emission");
+        }
+        for (const std::int32_t function : functions_of(phong)) {
+            if (function != runtime::no_function) {
+                needs_.functions[static_cast<std::size_t>(function)] = true;
+                want("function");
+            }
+        }
+    }
+
+    void measure() {
+        runtime::Bounds<double> box = world_bounds(scene_);
+        box.add(scene_.camera.eye);
+        for (const ir::Light& light : scene_.lights) {
+            if (const auto* point = std::get_if<runtime::PointLight<double>>(&light.light)) {
+                box.add(point->position);
+            }
+        }
+        for (const ir::Object& object : scene_.objects) {
+            if (const auto* plane = std::get_if<runtime::Plane<double>>(&object.shape)) {
+                box.add(foot(*plane, object.world_from_object, scene_.camera.eye));
+            }
+        }
+        needs_.center = box.center();
+        const double extent = length(box.max - needs_.center);
+        needs_.extent = extent > 0 ? extent : 1;
+    }
+
+    static Vec3<double> foot(const runtime::Plane<double>& plane, const runtime::Affine<double>& place,
+                             const Vec3<double>& eye) {
+        const Vec3<double> normal = normalize(plane.normal);
+        const Vec3<double> m = transform_normal(inverse(place), normal);
+        const Vec3<double> on_plane = transform_point(place, plane.offset * normal);
+        return eye - (dot(m, eye - on_plane) / dot(m, m)) * m;
+    }
+
+    const ir::Scene& scene_;
+    BlenderNeeds needs_;
+};
+
+} // namespace
+
+bool is_present(const runtime::Varying<runtime::Rgb<double>>& color) {
+    return color.function != runtime::no_function || !(color.value == runtime::Rgb<double>{});
+}
+
+bool is_smooth(const ir::Shape& shape, const ir::Scene& scene) {
+    if (const auto* triangle = std::get_if<runtime::Triangle<double>>(&shape)) {
+        return triangle->smooth;
+    }
+    const auto* mesh = std::get_if<runtime::Mesh<double>>(&shape);
+    return mesh != nullptr && !scene.meshes[mesh->mesh].normals.empty();
+}
+
+bool has_pattern(const ir::Object& object, const ir::Scene& scene) {
+    return some_function(scene, object, reads_point);
+}
+
+BlenderNeeds blender_needs(const ir::Scene& scene) {
+    return NeedsOf(scene).find();
+}
+
+} // namespace scc::compiler

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "compiler/backends/blender_library.h"
+#include "compiler/ir/scene.h"
+
+#include <vector>
+
+namespace scc::compiler {
+
+/// What the exported scene consists of: nothing else is written.
+struct BlenderNeeds {
+    BlenderFeatures features;
+    std::vector<bool> materials; ///< of each of the scene's materials, whether an object uses it
+    std::vector<bool> functions;
+    std::vector<bool> meshes;
+    int bounces = 0;        ///< mirror bounces that can be seen
+    double cut_off = 0;     ///< of the radiance that arrives at the last bounce, what share later ones could add
+    runtime::Vec3<double> center; ///< of what is bounded, the lights and the camera
+    double extent = 1;            ///< their distance from `center` at most
+};
+
+BlenderNeeds blender_needs(const ir::Scene& scene);
+
+/// Of a material: some channel is not 0, or varies.
+bool is_present(const runtime::Varying<runtime::Rgb<double>>& color);
+
+/// Whether a hit of the shape is shaded with normals interpolated from its corners.
+bool is_smooth(const ir::Shape& shape, const ir::Scene& scene);
+
+/// Whether a pattern of a plane needs its point more exactly than Cycles gives it.
+bool has_pattern(const ir::Object& object, const ir::Scene& scene);
+
+} // namespace scc::compiler

@@ -1,0 +1,223 @@
+#include "compiler/backends/blender_scene.h"
+
+#include "compiler/backends/blender_function.h"
+#include "compiler/backends/blender_mesh.h"
+#include "compiler/backends/blender_python.h"
+
+namespace scc::compiler {
+
+namespace {
+
+using runtime::Rgb;
+using runtime::Varying;
+
+class SceneWriter {
+public:
+    SceneWriter(Writer& out, const ir::Scene& scene, const BlenderNeeds& needs)
+        : out_(out), scene_(scene), needs_(needs), keys_(scene.functions.size()) {}
+
+    void write() {
+        write_constants();
+        write_camera();
+        write_lights();
+        write_functions();
+        write_materials();
+        write_meshes();
+        write_objects();
+    }
+
+private:
+    bool has(std::string_view feature) const { return needs_.features.contains(feature); }
+
+    void write_constants() {
+        const runtime::RenderSettings& settings = scene_.settings;
+        out_.line("NAME = {}", python(scene_.name.empty() ? "scene" : scene_.name));
+        out_.line("SIZE = ({}, {})", settings.width, settings.height);
+        out_.line("BOUNCES = {}", needs_.bounces);
+        if (has("light")) {
+            out_.line("SHADOWS = {}", settings.shadows ? "True" : "False");
+        }
+        out_.line("AMBIENT = {}", python(scene_.ambient));
+        out_.line("BACKGROUND = {}", python(scene_.background));
+        out_.line("CENTER = {}  # of what is bounded, the lights and the camera", python(needs_.center));
+        out_.line("EXTENT = {}  # their distance from there", python(needs_.extent));
+    }
+
+    void write_camera() {
+        const runtime::Camera<double>& camera = scene_.camera;
+        const bool perspective = camera.projection == runtime::Projection::perspective;
+        out_.line("CAMERA = dict(type=\"{}\", eye={}, right={}, up={}, back={},", perspective ? "PERSP" : "ORTHO",
+                  python(camera.eye), python(camera.u), python(camera.v), python(camera.n));
+        out_.line("              half_height={}, shift=({}, {}))", python(camera.half_height),
+                  python(camera.shift_x), python(camera.shift_y));
+    }
+
+    void write_lights() {
+        out_.line("LIGHTS = {{");
+        out_.indent();
+        for (const ir::Light& light : scene_.lights) {
+            std::string text = std::visit([&](const auto& l) { return place(l) + colors(l); }, light.light);
+            out_.line("{}: dict({}),", python(light.name), text);
+        }
+        out_.dedent();
+        out_.line("}}");
+    }
+    static std::string place(const runtime::PointLight<double>& light) {
+        std::string text = "type=\"POINT\", position=" + python(light.position);
+        if (light.kc != 1 || light.kl != 0 || light.kq != 0) {
+            text += fmt::format(", attenuation=({}, {}, {})", python(light.kc), python(light.kl), python(light.kq));
+        }
+        return text;
+    }
+    static std::string place(const runtime::DirectionalLight<double>& light) {
+        return "type=\"SUN\", to_light=" + python(light.to_light);
+    }
+    template <class Light>
+    static std::string colors(const Light& light) {
+        const std::string diffuse = ", diffuse=" + python(light.diffuse);
+        return light.diffuse == light.specular ? diffuse : diffuse + ", specular=" + python(light.specular);
+    }
+
+    void write_functions() {
+        if (!has("function")) {
+            return;
+        }
+        Identifiers identifiers("pattern_");
+        for (std::size_t i = 0; i < scene_.functions.size(); ++i) {
+            if (needs_.functions[i]) {
+                keys_[i] = identifiers.make(scene_.functions[i].name);
+                out_.blank();
+                out_.blank();
+                write_function(out_, scene_.functions[i], keys_[i]);
+            }
+        }
+        out_.blank();
+        out_.blank();
+        out_.line("FUNCTIONS = {{  # and what they read");
+        out_.indent();
+        for (std::size_t i = 0; i < scene_.functions.size(); ++i) {
+            if (needs_.functions[i]) {
+                std::string points;
+                for (const std::string_view point : points_read(scene_.functions[i])) {
+                    points += fmt::format("\"{}\", ", point);
+                }
+                out_.line("\"{}\": ({}, ({})),", keys_[i], keys_[i], points);
+            }
+        }
+        out_.dedent();
+        out_.line("}}");
+    }
+
+    void write_materials() {
+        out_.line("MATERIALS = {{");
+        out_.indent();
+        for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
+            if (needs_.materials[i]) {
+                out_.line("{}: dict({}),", python(scene_.materials[i].name), fields(scene_.materials[i].phong));
+            }
+        }
+        out_.dedent();
+        out_.line("}}");
+    }
+    std::string fields(const runtime::Phong<double>& phong) const {
+        std::string text = fmt::format("ambient={}, diffuse={}", field(phong.ambient), field(phong.diffuse));
+        if (is_present(phong.specular)) {
+            text += fmt::format(", specular={}, shininess={}", field(phong.specular), field(phong.shininess));
+        }
+        if (is_present(phong.emission)) {
+            text += ", emission=" + field(phong.emission);
+        }
+        if (has("mirror") && is_present(phong.reflect)) {
+            text += ", reflect=" + field(phong.reflect);
+        }
+        return text;
+    }
+    template <class T>
+    std::string field(const Varying<T>& value) const {
+        if (value.function == runtime::no_function) {
+            return python(value.value);
+        }
+        return '"' + keys_[static_cast<std::size_t>(value.function)] + '"';
+    }
+
+    void write_meshes() {
+        if (!has("mesh")) {
+            return;
+        }
+        if (needs_packing(scene_, needs_)) {
+            write_unpacking(out_);
+        }
+        out_.line("MESHES = {{");
+        out_.indent();
+        for (std::size_t i = 0; i < scene_.meshes.size(); ++i) {
+            if (needs_.meshes[i]) {
+                write_mesh(out_, scene_.meshes[i]);
+            }
+        }
+        out_.dedent();
+        out_.line("}}");
+    }
+
+    void write_objects() {
+        out_.line("OBJECTS = [");
+        out_.indent();
+        for (const ir::Object& object : scene_.objects) {
+            std::string text = std::visit([&](const auto& shape) { return described(shape); }, object.shape);
+            text += fmt::format(", name={}", python(object.path));
+            const std::string front = python(scene_.materials[object.sides.front].name);
+            if (object.sides.front == object.sides.back) {
+                text += ", material=" + front;
+            } else {
+                const std::string back = python(scene_.materials[object.sides.back].name);
+                text += fmt::format(", front={}, back={}", front, back);
+            }
+            if (!(object.world_from_object == runtime::Affine<double>{})) {
+                text += fmt::format(", world={}", python(object.world_from_object));
+            }
+            out_.line("dict({}),", text);
+        }
+        out_.dedent();
+        out_.line("]");
+    }
+    static std::string described(const runtime::Sphere<double>& s) {
+        return fmt::format("type=\"sphere\", center={}, radius={}", python(s.center), python(s.radius));
+    }
+    static std::string described(const runtime::Box<double>& b) {
+        return fmt::format("type=\"box\", low={}, high={}", python(b.min), python(b.max));
+    }
+    static std::string described(const runtime::Plane<double>& p) {
+        return fmt::format("type=\"plane\", normal={}, offset={}", python(p.normal), python(p.offset));
+    }
+    static std::string described(const runtime::Cylinder<double>& c) {
+        return fmt::format("type=\"cylinder\", start={}, end={}, radius={}, caps={}", python(c.from), python(c.to),
+                           python(c.radius), c.caps ? "True" : "False");
+    }
+    static std::string described(const runtime::Disc<double>& d) {
+        const std::string hole = d.hole > 0 ? ", hole=" + python(d.hole) : "";
+        return fmt::format("type=\"disc\", center={}, normal={}, radius={}{}", python(d.center), python(d.normal),
+                           python(d.radius), hole);
+    }
+    static std::string described(const runtime::Triangle<double>& t) {
+        const auto triple = [](const std::array<runtime::Vec3<double>, 3>& v) {
+            return fmt::format("({}, {}, {})", python(v[0]), python(v[1]), python(v[2]));
+        };
+        const std::string normals = t.smooth ? ", normals=" + triple(t.normals) : "";
+        return fmt::format("type=\"triangle\", points={}{}", triple(t.points), normals);
+    }
+    std::string described(const runtime::Mesh<double>& m) const {
+        return fmt::format("type=\"mesh\", mesh={}", python(scene_.meshes[m.mesh].name));
+    }
+
+    Writer& out_;
+    const ir::Scene& scene_;
+    const BlenderNeeds& needs_;
+    std::vector<std::string> keys_; ///< of each function: its name in Python
+};
+
+} // namespace
+
+void write_blender_scene(Writer& out, const ir::Scene& scene, const BlenderNeeds& needs) {
+    SceneWriter(out, scene, needs).write();
+}
+
+} // namespace scc::compiler

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "compiler/ir/function.h"
+
+#include <array>
+#include <limits>
+#include <vector>
+
+namespace scc::compiler {
+
+/// All values between min and max; the ends may be infinite.
+struct Range {
+    double min = -std::numeric_limits<double>::infinity();
+    double max = std::numeric_limits<double>::infinity();
+
+    friend bool operator==(const Range&, const Range&) = default;
+};
+
+using InputRanges = std::array<Range, ir::input_count>;
+
+/// For every node of the function a range that contains its values for all inputs in `inputs`.
+std::vector<Range> node_ranges(const ir::Function& function, const InputRanges& inputs);
+
+/// Whether the operator's result is 1 or 0.
+bool is_truth(ir::Op op);
+
+} // namespace scc::compiler

@@ -1,0 +1,164 @@
+#include "compiler/backends/pov_frame.h"
+
+#include "compiler/backends/pov_text.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+namespace scc::compiler {
+
+using runtime::Affine;
+using runtime::Bounds;
+using runtime::Vec3;
+
+namespace {
+
+double nearest_power_of_two(double x) {
+    return std::exp2(std::round(std::log2(x)));
+}
+
+Bounds<double> mesh_bounds(const ir::Mesh& mesh) {
+    Bounds<double> bounds;
+    for (std::size_t i = 0; i + 2 < mesh.positions.size(); i += 3) {
+        bounds.add(Vec3<double>{mesh.positions[i], mesh.positions[i + 1], mesh.positions[i + 2]});
+    }
+    return bounds;
+}
+
+double size_of(const Bounds<double>& bounds) {
+    return bounds.min.x <= bounds.max.x ? length(bounds.max - bounds.min) : 0;
+}
+
+double magnification(const Affine<double>& a) {
+    double largest = 0;
+    for (int column = 0; column < 3; ++column) {
+        largest = std::max(largest, length(Vec3<double>{a.m[0][column], a.m[1][column], a.m[2][column]}));
+    }
+    return largest;
+}
+
+/// The distance of a point from a plane that was moved.
+double plane_distance(const runtime::Plane<double>& plane, const Affine<double>& world_from_object,
+                      const Vec3<double>& p) {
+    const Affine<double> object_from_world = inverse(world_from_object);
+    const Vec3<double> n = normalize(plane.normal);
+    return std::abs(dot(n, transform_point(object_from_world, p)) - plane.offset) /
+           length(transform_normal(object_from_world, n));
+}
+
+/// The stretch that matters: around the eye and all bounded objects, else down to the farthest plane.
+double extent_of(const ir::Scene& scene, Bounds<double>& around) {
+    double planes = 0;
+    around.add(scene.camera.eye);
+    for (const ir::Object& object : scene.objects) {
+        if (const auto bounds = object_bounds(object.shape, scene)) {
+            around.add(transform_bounds(object.world_from_object, *bounds));
+        } else {
+            planes = std::max(planes, plane_distance(std::get<runtime::Plane<double>>(object.shape),
+                                                     object.world_from_object, scene.camera.eye));
+        }
+    }
+    const double bounded = size_of(around);
+    return bounded > 0 ? bounded : planes;
+}
+
+/// A multiple of about `step`, so that differences to it stay exact.
+double rounded(double x, double step) {
+    const double unit = nearest_power_of_two(step);
+    return std::round(x / unit) * unit;
+}
+
+constexpr double comfortable_size = 32;
+
+} // namespace
+
+std::string PovFrame::texture_transform() const {
+    std::string text;
+    if (!(origin == Vec3<double>{})) {
+        text += " translate " + pov_vector(-origin);
+    }
+    if (scale != 1) {
+        text += " scale " + number(scale);
+    }
+    return text;
+}
+
+PovFrame choose_frame(const ir::Scene& scene) {
+    PovFrame frame;
+    Bounds<double> around;
+    const double extent = extent_of(scene, around);
+    if (!(extent > 0) || !std::isfinite(extent)) {
+        return frame;
+    }
+    if (extent < 1 || extent > 1000) {
+        frame.scale = nearest_power_of_two(comfortable_size / extent);
+    }
+    const Vec3<double> center = around.center();
+    const double distance = length(center);
+    if (distance > 10 * extent && distance * frame.scale > 1e4) {
+        frame.origin = {rounded(center.x, extent), rounded(center.y, extent), rounded(center.z, extent)};
+    }
+    return frame;
+}
+
+double mesh_scale(const ir::Mesh& mesh) {
+    const double size = size_of(mesh_bounds(mesh));
+    return size > 0 && (size < 0.1 || size > 1e4) ? nearest_power_of_two(comfortable_size / size) : 1;
+}
+
+Placement place(const ir::Object& object, const ir::Scene& scene, const PovFrame& frame) {
+    Placement placement;
+    const double total = frame.scale * magnification(object.world_from_object);
+    if (const auto* mesh = std::get_if<runtime::Mesh<double>>(&object.shape)) {
+        placement.shape_scale = mesh_scale(scene.meshes[mesh->mesh]);
+    } else if (frame.scale != 1 || total < 1e-3 || total > 1e3) {
+        placement.shape_scale = nearest_power_of_two(total);
+    }
+    const Vec3<double> moved = frame.point(translation_of(object.world_from_object));
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) {
+            placement.transform.m[row][column] =
+                object.world_from_object.m[row][column] * (frame.scale / placement.shape_scale);
+        }
+    }
+    placement.transform.m[0][3] = moved.x;
+    placement.transform.m[1][3] = moved.y;
+    placement.transform.m[2][3] = moved.z;
+    return placement;
+}
+
+std::optional<Bounds<double>> object_bounds(const ir::Shape& shape, const ir::Scene& scene) {
+    return std::visit(
+        [&](const auto& s) -> std::optional<Bounds<double>> {
+            using S = std::decay_t<decltype(s)>;
+            if constexpr (std::is_same_v<S, runtime::Plane<double>>) {
+                return std::nullopt;
+            } else if constexpr (std::is_same_v<S, runtime::Mesh<double>>) {
+                return mesh_bounds(scene.meshes[s.mesh]);
+            } else {
+                return s.bounds();
+            }
+        },
+        shape);
+}
+
+InputRanges input_ranges(const ir::Object& object, const ir::Scene& scene) {
+    InputRanges ranges;
+    const auto set = [&](ir::Input first, const Bounds<double>& b) {
+        const auto at = static_cast<std::size_t>(first);
+        ranges[at] = {b.min.x, b.max.x};
+        ranges[at + 1] = {b.min.y, b.max.y};
+        ranges[at + 2] = {b.min.z, b.max.z};
+    };
+    if (const auto bounds = object_bounds(object.shape, scene)) {
+        set(ir::Input::p_x, *bounds);
+        set(ir::Input::world_x, transform_bounds(object.world_from_object, *bounds));
+    }
+    set(ir::Input::n_x, {{-1, -1, -1}, {1, 1, 1}});
+    return ranges;
+}
+
+} // namespace scc::compiler

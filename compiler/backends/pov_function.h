@@ -1,0 +1,73 @@
+#pragma once
+
+#include "compiler/backends/function_range.h"
+#include "compiler/backends/ledger.h"
+#include "compiler/ir/scene.h"
+#include "compiler/writer.h"
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace scc::compiler {
+
+/// A colour that is constant, or the sum over `parts` of low + t (high - low). A number stands in all
+/// channels.
+struct Paint {
+    struct Part {
+        std::string t; ///< an expression of x, y, z with values in 0..1
+        runtime::Rgb<double> low{}, high{};
+    };
+    runtime::Rgb<double> constant{};
+    std::vector<Part> parts;                      ///< none for a constant, else one, or one for each channel
+    bool two_valued = false;                      ///< t of the one part is 0 or 1
+    std::int32_t function = runtime::no_function; ///< where the paint comes from
+
+    bool is_constant() const { return parts.empty(); }
+    bool is_black() const { return is_constant() && constant == runtime::Rgb<double>{}; }
+};
+
+/// How faithfully something went into the export; see LedgerEntry.
+struct Outcome {
+    Fidelity fidelity = Fidelity::exact;
+    std::string how;
+    double bound = 0;
+};
+
+/// Per-point functions as SDL functions, each declared when it is first used.
+class PovFunctions {
+public:
+    PovFunctions(const std::vector<ir::Function>& functions, Writer& out)
+        : functions_(functions), out_(out) {}
+
+    /// The function as a paint over points whose inputs lie in `inputs`. A texture's x, y, z are the
+    /// function's p and also its world point, unless `world_from_object` tells how to get there.
+    std::pair<Paint, Outcome> paint(std::int32_t function, const InputRanges& inputs,
+                                    const runtime::Affine<double>* world_from_object);
+
+private:
+    struct Declared {
+        std::string name; ///< empty: it cannot be written, for this reason:
+        std::string_view obstacle;
+        bool reads_p = false, reads_world = false;
+    };
+    struct Scaled {
+        std::string t;
+        double low = 0, high = 0;
+    };
+
+    const Declared& declare(std::int32_t function, std::uint32_t node, std::string_view suffix);
+    Scaled scaled(std::int32_t function, std::uint32_t node, std::string_view suffix,
+                  const InputRanges& inputs, const runtime::Affine<double>* world_from_object,
+                  Outcome& outcome);
+
+    const std::vector<ir::Function>& functions_;
+    Writer& out_;
+    Identifiers names_{"f_"};
+    std::map<std::pair<std::int32_t, std::uint32_t>, Declared> declared_;
+};
+
+} // namespace scc::compiler

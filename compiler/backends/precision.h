@@ -1,0 +1,12 @@
+#pragma once
+
+namespace scc::compiler {
+
+enum class Precision { single, full };
+
+/// As the command line and the statistics name it.
+constexpr const char* name_of(Precision precision) {
+    return precision == Precision::single ? "float" : "double";
+}
+
+} // namespace scc::compiler

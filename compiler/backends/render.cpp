@@ -1,0 +1,129 @@
+#include "compiler/backends/render.h"
+
+#include "compiler/backends/tables.h"
+#include "compiler/ir/traits.h"
+#include "runtime/accel/build.h"
+#include "runtime/host/program.h"
+#include "runtime/render.h"
+
+#include <chrono>
+#include <memory>
+
+namespace scc::compiler {
+
+namespace {
+
+template <class R>
+runtime::FunctionProgram<R> program_of(const ir::Function& function) {
+    runtime::FunctionProgram<R> program;
+    for (const ir::Node& node : function.nodes) {
+        runtime::Instruction<R> instruction;
+        switch (node.kind) {
+        case ir::Node::Kind::constant:
+            instruction.code = runtime::Opcode::constant;
+            instruction.constant = static_cast<R>(node.constant);
+            break;
+        case ir::Node::Kind::input:
+            instruction.code = static_cast<runtime::Opcode>(static_cast<int>(runtime::Opcode::p_x) +
+                                                            static_cast<int>(node.input));
+            break;
+        case ir::Node::Kind::apply:
+            instruction.code = static_cast<runtime::Opcode>(static_cast<int>(runtime::Opcode::n_z) + 1 +
+                                                            static_cast<int>(node.op));
+            instruction.operands = node.operands;
+            break;
+        }
+        program.instructions.push_back(instruction);
+    }
+    program.results = function.results;
+    return program;
+}
+
+// A scene together with the meshes that its tables point into.
+template <class R>
+struct OwnedScene {
+    runtime::DynamicScene<R> scene;
+    std::vector<runtime::MeshStorage> meshes;
+};
+
+template <class R>
+std::shared_ptr<const OwnedScene<R>> build(const ir::Scene& scene) {
+    auto owned = std::make_shared<OwnedScene<R>>();
+    runtime::DynamicScene<R>& out = owned->scene;
+    for (const ir::Mesh& mesh : scene.meshes) {
+        owned->meshes.push_back(
+            runtime::build_mesh(mesh.positions, mesh.indices, mesh.normals, mesh.normal_indices));
+    }
+    for (const runtime::MeshStorage& mesh : owned->meshes) {
+        out.meshes.push_back(mesh.data());
+    }
+    for_each_primitive<R>(scene, [&](const auto& primitive) { out.add(primitive); });
+    out.materials = materials_of<R>(scene);
+    out.point_lights = lights_of<runtime::PointLight, R>(scene);
+    out.directional_lights = lights_of<runtime::DirectionalLight, R>(scene);
+    for (const ir::Function& function : scene.functions) {
+        out.functions.push_back(program_of<R>(function));
+    }
+    out.camera = convert(scene.camera, R{});
+    out.ambient = convert(scene.ambient, R{});
+    out.background = convert(scene.background, R{});
+    prepare(out);
+    return owned;
+}
+
+template <class R>
+void set_renderer(host::Drawable& drawable, const ir::Scene& scene) {
+    drawable.render = [owned = build<R>(scene)](const runtime::RenderRequest& request,
+                                                runtime::Image& image) {
+        return runtime::render(owned->scene, request, image);
+    };
+}
+
+template <class... All>
+void add_shape_names(std::vector<std::string>& names, std::uint32_t bits, const char* suffix,
+                     runtime::TypeList<All...>) {
+    std::uint32_t bit = 1;
+    const auto add = [&](std::string_view name) {
+        if ((bits & bit) != 0) {
+            names.push_back(std::string(name) + suffix);
+        }
+        bit <<= 1;
+    };
+    (add(All::name), ...);
+}
+
+} // namespace
+
+host::Drawable make_drawable(const ir::Scene& scene, Precision precision) {
+    host::Drawable drawable{.scene = scene.name,
+                            .precision = name_of(precision),
+                            .isa = host::compiled_isa,
+                            .features = feature_names(scene),
+                            .settings = scene.settings,
+                            .times_ms = {},
+                            .render = {}};
+    const auto start = std::chrono::steady_clock::now();
+    if (precision == Precision::single) {
+        set_renderer<float>(drawable, scene);
+    } else {
+        set_renderer<double>(drawable, scene);
+    }
+    const std::chrono::duration<double, std::milli> gone = std::chrono::steady_clock::now() - start;
+    drawable.times_ms.emplace_back("accel", gone.count());
+    return drawable;
+}
+
+std::vector<std::string> feature_names(const ir::Scene& scene) {
+    const runtime::SceneTraits& t = scene.traits;
+    std::vector<std::string> names;
+    add_shape_names(names, t.bare_shapes, "", runtime::Shapes<double>{});
+    add_shape_names(names, t.placed_shapes, " (transformed)", runtime::Shapes<double>{});
+    for (const ir::TraitFlag& flag : ir::trait_flags) {
+        if (t.*flag.member) {
+            names.emplace_back(flag.name);
+        }
+    }
+    return names;
+}
+
+} // namespace scc::compiler

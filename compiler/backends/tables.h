@@ -1,0 +1,134 @@
+#pragma once
+
+#include "compiler/ir/scene.h"
+#include "runtime/math/affine.h"
+#include "runtime/scene.h"
+
+#include <array>
+#include <cstdint>
+#include <tuple>
+
+/// The IR's values in the precision that a renderer calculates with. The in-process renderer and the
+/// generated program both take their data from here, so that both draw from the same bits.
+namespace scc::compiler {
+
+template <class R>
+R convert(double v, R) {
+    return static_cast<R>(v);
+}
+template <class R>
+runtime::Vec3<R> convert(const runtime::Vec3<double>& v, R) {
+    return {static_cast<R>(v.x), static_cast<R>(v.y), static_cast<R>(v.z)};
+}
+template <class R>
+runtime::Rgb<R> convert(const runtime::Rgb<double>& c, R) {
+    return {static_cast<R>(c.r), static_cast<R>(c.g), static_cast<R>(c.b)};
+}
+template <class R>
+bool convert(bool v, R) {
+    return v;
+}
+template <class R, std::size_t N>
+std::array<runtime::Vec3<R>, N> convert(const std::array<runtime::Vec3<double>, N>& list, R real) {
+    std::array<runtime::Vec3<R>, N> result;
+    for (std::size_t i = 0; i < N; ++i) {
+        result[i] = convert(list[i], real);
+    }
+    return result;
+}
+template <class T, class R>
+auto convert(const runtime::Varying<T>& v, R real) -> runtime::Varying<decltype(convert(v.value, real))> {
+    return {convert(v.value, real), v.function};
+}
+
+template <class R>
+runtime::Phong<R> convert(const runtime::Phong<double>& p, R real) {
+    return {convert(p.ambient, real),  convert(p.diffuse, real), convert(p.specular, real),
+            convert(p.emission, real), convert(p.reflect, real), convert(p.shininess, real)};
+}
+template <class R>
+runtime::PointLight<R> convert(const runtime::PointLight<double>& l, R real) {
+    return {convert(l.position, real), convert(l.diffuse, real), convert(l.specular, real),
+            convert(l.kc, real),       convert(l.kl, real),      convert(l.kq, real)};
+}
+template <class R>
+runtime::DirectionalLight<R> convert(const runtime::DirectionalLight<double>& l, R real) {
+    return {convert(l.to_light, real), convert(l.diffuse, real), convert(l.specular, real)};
+}
+template <class R>
+runtime::Camera<R> convert(const runtime::Camera<double>& c, R real) {
+    return {
+        c.projection,       convert(c.eye, real),         convert(c.u, real),       convert(c.v, real),
+        convert(c.n, real), convert(c.half_height, real), convert(c.shift_x, real), convert(c.shift_y, real)};
+}
+
+/// A described shape, member by member.
+template <template <class> class Shape, class R>
+Shape<R> convert(const Shape<double>& from, R real) requires requires {
+    Shape<R>::fields();
+}
+{
+    Shape<R> to{};
+    const auto copy = [&](const auto& source, const auto& target) {
+        to.*target.member = convert(from.*source.member, real);
+        if (source.present != nullptr) {
+            to.*target.present = from.*source.present;
+        }
+    };
+    const auto sources = Shape<double>::fields();
+    const auto targets = Shape<R>::fields();
+    [&]<std::size_t... i>(std::index_sequence<i...>) {
+        (copy(std::get<i>(sources), std::get<i>(targets)), ...);
+    }
+    (std::make_index_sequence<std::tuple_size_v<decltype(sources)>>{});
+    return to;
+}
+template <class R>
+runtime::Mesh<R> convert(const runtime::Mesh<double>& mesh, R) {
+    return {mesh.mesh};
+}
+
+/// Calls `visit` with the Bare or Placed primitive of every object, in the order of their ids.
+template <class R, class Visit>
+void for_each_primitive(const ir::Scene& scene, Visit visit) {
+    for (std::uint32_t id = 0; id < scene.objects.size(); ++id) {
+        const ir::Object& object = scene.objects[id];
+        const runtime::Tag tag{id, object.sides};
+        std::visit(
+            [&](const auto& source) {
+                const auto shape = convert(source, R{});
+                using Shape = std::remove_const_t<decltype(shape)>;
+                if (object.world_from_object == runtime::Affine<double>{}) {
+                    visit(runtime::Bare<Shape>{shape, tag});
+                } else {
+                    visit(runtime::Placed<Shape, R>{
+                        shape, runtime::affine_cast<R>(object.world_from_object),
+                        runtime::affine_cast<R>(inverse(object.world_from_object)), tag});
+                }
+            },
+            object.shape);
+    }
+}
+
+/// The lights of one kind, in source order.
+template <template <class> class Light, class R>
+std::vector<Light<R>> lights_of(const ir::Scene& scene) {
+    std::vector<Light<R>> lights;
+    for (const ir::Light& light : scene.lights) {
+        if (const auto* found = std::get_if<Light<double>>(&light.light)) {
+            lights.push_back(convert(*found, R{}));
+        }
+    }
+    return lights;
+}
+
+template <class R>
+std::vector<runtime::Phong<R>> materials_of(const ir::Scene& scene) {
+    std::vector<runtime::Phong<R>> materials;
+    for (const ir::Material& material : scene.materials) {
+        materials.push_back(convert(material.phong, R{}));
+    }
+    return materials;
+}
+
+} // namespace scc::compiler

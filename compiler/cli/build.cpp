@@ -1,0 +1,118 @@
+#include "compiler/backends/cpp.h"
+#include "compiler/cli/commands.h"
+#include "compiler/cli/native.h"
+#include "compiler/ir/print.h"
+#include "compiler/writer.h"
+#include "lang/dump.h"
+#include "runtime/host/file.h"
+#include "runtime/host/options.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <map>
+#include <memory>
+
+namespace scc::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+enum class Emit { tokens, ast, ir, cpp, exe };
+
+struct Options {
+    SceneOptions scene;
+    std::string output;
+    Emit emit = Emit::exe;
+    compiler::Precision precision = compiler::Precision::full;
+};
+
+Stage stage_for(Emit emit) {
+    switch (emit) {
+    case Emit::tokens:
+        return Stage::tokens;
+    case Emit::ast:
+        return Stage::tree;
+    case Emit::ir:
+    case Emit::cpp:
+    case Emit::exe:
+        break;
+    }
+    return Stage::scene;
+}
+
+void emit_source(const Loaded& loaded, const Options& options) {
+    const std::string blob_name =
+        compiler::Identifiers("scene_").make(fs::path(options.output).stem().string()) + ".blob";
+    const compiler::CppProgram program = emit_cpp(loaded.scene, options.precision, blob_name);
+    if (!program.blob.empty()) {
+        if (options.output == "-") {
+            throw host::UsageError(
+                "this scene's program has a second file with its large tables: give `-o` a file name");
+        }
+        host::replace_file((fs::path(options.output).parent_path() / blob_name).string(), program.blob);
+    }
+    write_result(options.output, program.source);
+}
+
+void emit_program(const Loaded& loaded, const Options& options) {
+    if (options.output == "-") {
+        throw host::UsageError("a program cannot go to standard output: give `-o` a file name");
+    }
+    const std::string blob_name = "scene.blob";
+    compile_native(emit_cpp(loaded.scene, options.precision, blob_name), blob_name, options.output);
+}
+
+int build(const Options& options) {
+    const Loaded loaded = load(options.scene, stage_for(options.emit));
+    if (!report(loaded)) {
+        return host::exit_scene;
+    }
+    switch (options.emit) {
+    case Emit::tokens:
+        write_result(options.output, lang::dump_tokens(loaded.sources, loaded.tokens));
+        break;
+    case Emit::ast:
+        write_result(options.output, lang::dump_ast(*loaded.tree));
+        break;
+    case Emit::ir:
+        write_result(options.output, print(loaded.scene));
+        break;
+    case Emit::cpp:
+        emit_source(loaded, options);
+        break;
+    case Emit::exe:
+        emit_program(loaded, options);
+        break;
+    }
+    return host::exit_fine;
+}
+
+} // namespace
+
+void add_build(CLI::App& app, Run& selected) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand(
+        "build", "make a native program that draws the scene and holds only what it needs");
+    add_scene_options(*command, options->scene);
+    command->add_option("-o,--output", options->output, "the program, or what --emit asks for; - for stdout")
+        ->required()
+        ->type_name("PROG");
+    add_precision_option(*command, options->precision);
+    static const std::map<std::string, Emit> kinds{{"exe", Emit::exe},
+                                                   {"cpp", Emit::cpp},
+                                                   {"ir", Emit::ir},
+                                                   {"ast", Emit::ast},
+                                                   {"tokens", Emit::tokens}};
+    command
+        ->add_option_function<std::string>(
+            "--emit", [options](const std::string& kind) { options->emit = kinds.at(kind); },
+            "stop at this stage (default: exe)")
+        ->check(CLI::IsMember({"exe", "cpp", "ir", "ast", "tokens"}))
+        ->type_name("exe|cpp|ir|ast|tokens");
+    command->callback([&selected, options] { selected = [options] { return build(*options); }; });
+}
+
+} // namespace scc::cli

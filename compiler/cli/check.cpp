@@ -1,0 +1,150 @@
+#include "compiler/cli/commands.h"
+#include "lang/type.h"
+#include "runtime/host/options.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <memory>
+
+namespace scc::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct CheckOptions {
+    SceneOptions scene;
+    std::vector<std::string> files;
+    bool strict = false;
+    bool json = false;
+};
+
+const char* name_of(lang::Severity severity) {
+    switch (severity) {
+    case lang::Severity::note:
+        return "note";
+    case lang::Severity::warning:
+        return "warning";
+    case lang::Severity::error:
+        return "error";
+    }
+    return "";
+}
+
+Json place(const lang::SourceSet& sources, lang::Span span) {
+    const lang::SourceFile& file = sources.file(span.file);
+    const lang::Position begin = file.position(span.begin);
+    const lang::Position end = file.position(span.end);
+    return {{"file", file.path()},
+            {"line", begin.line},
+            {"column", begin.column},
+            {"end_line", end.line},
+            {"end_column", end.column}};
+}
+
+Json to_json(const lang::SourceSet& sources, const lang::Diagnostic& diagnostic) {
+    Json json{{"severity", name_of(diagnostic.severity)},
+              {"name", lang::row(diagnostic.kind).name},
+              {"message", diagnostic.message},
+              {"place", place(sources, diagnostic.span)}};
+    Json notes = Json::array();
+    for (const lang::Note& note : diagnostic.notes) {
+        notes.push_back({{"message", note.text}, {"place", place(sources, note.span)}});
+    }
+    json["notes"] = std::move(notes);
+    if (diagnostic.fix) {
+        json["fix"] = {{"replacement", diagnostic.fix->replacement},
+                       {"place", place(sources, diagnostic.fix->span)}};
+    }
+    return json;
+}
+
+int check(const CheckOptions& options) {
+    bool fine = true;
+    Json all = Json::array();
+    for (const std::string& file : options.files) {
+        SceneOptions scene = options.scene;
+        scene.file = file;
+        Loaded loaded = load(scene, Stage::scene);
+        if (options.strict) {
+            loaded.diagnostics.promote_warnings();
+        }
+        if (options.json) {
+            for (const lang::Diagnostic& diagnostic : loaded.diagnostics.sorted()) {
+                all.push_back(to_json(loaded.sources, diagnostic));
+            }
+            fine &= !loaded.diagnostics.has_errors();
+        } else {
+            fine &= report(loaded);
+        }
+    }
+    if (options.json) {
+        write_result("-", Json{{"schema", 1}, {"diagnostics", all}}.dump(2, ' ', false,
+                                                                         Json::error_handler_t::replace) +
+                              "\n");
+    }
+    return fine ? host::exit_fine : host::exit_scene;
+}
+
+struct ParamsOptions {
+    SceneOptions scene;
+    bool json = false;
+};
+
+Json to_json(const lang::Param& param) {
+    Json json{{"name", param.name},
+              {"type", lang::to_string(param.type)},
+              {"default", lang::to_string(param.default_value)},
+              {"value", lang::to_string(param.value)},
+              {"text", param.text}};
+    json["range"] = param.range ? Json{param.range->first, param.range->second} : Json(nullptr);
+    return json;
+}
+
+std::string to_text(const lang::Param& param) {
+    std::string text = fmt::format("{}: {} = {}", param.name, lang::to_string(param.type),
+                                   lang::to_string(param.default_value));
+    if (param.range) {
+        text += fmt::format(" in {}..{}", param.range->first, param.range->second);
+    }
+    return text + (param.text.empty() ? "\n" : fmt::format("  // {}\n", param.text));
+}
+
+int list_params(const ParamsOptions& options) {
+    const Loaded loaded = load(options.scene, Stage::module);
+    if (!report(loaded)) {
+        return host::exit_scene;
+    }
+    std::string text;
+    Json json = Json::array();
+    for (const lang::Param& param : loaded.module.params) {
+        text += to_text(param);
+        json.push_back(to_json(param));
+    }
+    write_result("-", options.json ? Json{{"schema", 1}, {"params", json}}.dump(2) + "\n" : text);
+    return host::exit_fine;
+}
+
+} // namespace
+
+void add_check(CLI::App& app, Run& selected) {
+    auto options = std::make_shared<CheckOptions>();
+    CLI::App* command = app.add_subcommand("check", "say what is wrong with scenes, all of it");
+    command->add_option("FILE", options->files, "scenes, .scn files")->required();
+    add_scene_values(*command, options->scene);
+    command->add_flag("--strict", options->strict, "warnings are errors");
+    command->add_flag("--json", options->json, "diagnostics as JSON on standard output");
+    command->callback([&selected, options] { selected = [options] { return check(*options); }; });
+}
+
+void add_params(CLI::App& app, Run& selected) {
+    auto options = std::make_shared<ParamsOptions>();
+    CLI::App* command = app.add_subcommand("params", "list what `-D` can set in a scene");
+    add_scene_options(*command, options->scene);
+    command->add_flag("--json", options->json, "as JSON");
+    command->callback([&selected, options] { selected = [options] { return list_params(*options); }; });
+}
+
+} // namespace scc::cli

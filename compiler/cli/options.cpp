@@ -1,0 +1,51 @@
+#include "compiler/cli/commands.h"
+#include "runtime/host/file.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <map>
+
+namespace scc::cli {
+
+void add_scene_values(CLI::App& app, SceneOptions& options) {
+    app.add_option("-D", options.definitions, "set a param of the scene; may be repeated")
+        ->type_name("NAME=VALUE")
+        ->allow_extra_args(false)
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    app.add_option("--asset-path", options.asset_paths,
+                   "a further folder that the scene may read files from; may be repeated")
+        ->type_name("FOLDER")
+        ->allow_extra_args(false)
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    app.add_option("--camera", options.camera, "which camera, where the scene has several")
+        ->type_name("NAME");
+}
+
+void add_scene_options(CLI::App& app, SceneOptions& options) {
+    app.add_option("FILE", options.file, "the scene, a .scn file")->required();
+    add_scene_values(app, options);
+}
+
+void add_precision_option(CLI::App& app, compiler::Precision& precision) {
+    static const std::map<std::string, compiler::Precision> names{{"auto", compiler::Precision::full},
+                                                                  {"float", compiler::Precision::single},
+                                                                  {"double", compiler::Precision::full}};
+    app.add_option_function<std::string>(
+           "--precision", [&](const std::string& name) { precision = names.at(name); },
+           "of the arithmetic; auto is double (default)")
+        ->check(CLI::IsMember({"auto", "float", "double"}))
+        ->type_name("auto|float|double");
+}
+
+void write_result(const std::string& path, const std::string& text) {
+    if (path != "-") {
+        host::replace_file(path, text);
+    } else if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+        throw host::FileError("cannot write to standard output");
+    }
+}
+
+} // namespace scc::cli

@@ -1,0 +1,128 @@
+#include "compiler/cli/pipeline.h"
+
+#include "compiler/lower.h"
+#include "compiler/passes/passes.h"
+#include "compiler/schema.h"
+#include "lang/parser.h"
+#include "runtime/host/file.h"
+#include "runtime/host/options.h"
+
+#include <fmt/core.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <unistd.h>
+
+namespace scc::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::uintmax_t largest_scene_file = std::uintmax_t{1} << 30;
+
+std::string read_scene_file(const std::string& path) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (!fs::exists(status)) {
+        throw host::FileError(fmt::format("cannot read `{}`: there is no such file", path));
+    }
+    if (fs::is_directory(status)) {
+        throw host::FileError(fmt::format("cannot read `{}`: it is a folder", path));
+    }
+    if (fs::is_regular_file(status) && fs::file_size(path, error) > largest_scene_file) {
+        throw host::FileError(fmt::format("cannot read `{}`: it is larger than 1 GiB", path));
+    }
+    std::ifstream stream(path, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    if (!stream.is_open() || stream.bad()) {
+        throw host::FileError(fmt::format("cannot read `{}`", path));
+    }
+    return text;
+}
+
+std::vector<lang::Definition> parse_definitions(const std::vector<std::string>& texts) {
+    std::vector<lang::Definition> definitions;
+    for (const std::string& text : texts) {
+        const std::size_t equals = text.find('=');
+        if (equals == 0 || equals == std::string::npos) {
+            throw host::UsageError(fmt::format("`-D {}` is not name=value", text));
+        }
+        definitions.push_back({text.substr(0, equals), text.substr(equals + 1)});
+    }
+    return definitions;
+}
+
+compiler::LowerOptions lower_options(const SceneOptions& options,
+                                     const std::vector<lang::Definition>& definitions) {
+    compiler::LowerOptions result;
+    result.name = fs::path(options.file).stem().string();
+    result.camera = options.camera;
+    result.assets.scene_folder = fs::path(options.file).parent_path();
+    result.assets.asset_paths.assign(options.asset_paths.begin(), options.asset_paths.end());
+    for (const lang::Definition& definition : definitions) {
+        result.assets.named_by_user.insert(definition.value);
+    }
+    return result;
+}
+
+// Runs one stage and notes how long it took.
+template <class Run>
+void timed(Loaded& loaded, const char* stage, Run run) {
+    const auto start = std::chrono::steady_clock::now();
+    run();
+    const std::chrono::duration<double, std::milli> gone = std::chrono::steady_clock::now() - start;
+    loaded.times_ms.emplace_back(stage, gone.count());
+}
+
+} // namespace
+
+Loaded load(const SceneOptions& options, Stage last) {
+    Loaded loaded;
+    const std::vector<lang::Definition> definitions = parse_definitions(options.definitions);
+    const lang::FileId file = loaded.sources.add(options.file, read_scene_file(options.file));
+    timed(loaded, "parse", [&] {
+        loaded.tokens = lang::lex(loaded.sources, file, loaded.diagnostics);
+        if (last != Stage::tokens) {
+            loaded.tree = std::make_shared<const lang::ast::File>(
+                lang::parse(loaded.sources, file, loaded.tokens, loaded.diagnostics));
+        }
+    });
+    if (last < Stage::module || loaded.diagnostics.has_errors()) {
+        return loaded;
+    }
+    timed(loaded, "check", [&] {
+        loaded.module = lang::check(loaded.tree, compiler::scene_schema(), definitions, loaded.sources,
+                                    loaded.diagnostics);
+    });
+    if (last < Stage::scene || loaded.diagnostics.has_errors()) {
+        return loaded;
+    }
+    timed(loaded, "lower", [&] {
+        loaded.scene =
+            compiler::lower(loaded.module, lower_options(options, definitions), loaded.diagnostics);
+    });
+    if (!loaded.diagnostics.has_errors()) {
+        timed(loaded, "passes", [&] { compiler::run_passes(loaded.scene); });
+    }
+    return loaded;
+}
+
+bool report(const Loaded& loaded) {
+    const char* no_color = std::getenv("NO_COLOR");
+    const bool color = isatty(STDERR_FILENO) != 0 && (no_color == nullptr || *no_color == '\0');
+    std::string text;
+    for (const lang::Diagnostic& diagnostic : loaded.diagnostics.sorted()) {
+        text += lang::render_text(loaded.sources, diagnostic, color);
+    }
+    if (const std::size_t errors = loaded.diagnostics.error_count(); errors > 0) {
+        text += fmt::format("{} error{}\n", errors, errors == 1 ? "" : "s");
+    }
+    fmt::print(stderr, "{}", text);
+    return !loaded.diagnostics.has_errors();
+}
+
+} // namespace scc::cli

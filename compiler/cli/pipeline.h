@@ -1,0 +1,44 @@
+#pragma once
+
+#include "compiler/assets.h"
+#include "compiler/ir/scene.h"
+#include "lang/check.h"
+#include "lang/diagnostic.h"
+#include "lang/lexer.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace scc::cli {
+
+/// What the commands that read a scene have in common.
+struct SceneOptions {
+    std::string file;
+    std::vector<std::string> definitions; ///< -D name=value
+    std::vector<std::string> asset_paths;
+    std::string camera;
+};
+
+/// A scene on its way through the stages; each stage is run by `load` as far as it was asked to.
+struct Loaded {
+    lang::SourceSet sources;
+    lang::Diagnostics diagnostics;
+    std::vector<lang::Token> tokens;
+    std::shared_ptr<const lang::ast::File> tree;
+    lang::Module module;
+    compiler::ir::Scene scene;
+    std::vector<std::pair<std::string, double>> times_ms;
+};
+
+enum class Stage { tokens, tree, module, scene };
+
+/// Reads the file and runs the stages up to `last`, or until one reports errors. Throws host::FileError if
+/// the scene file cannot be read, host::UsageError for a -D without `=`.
+Loaded load(const SceneOptions& options, Stage last);
+
+/// Prints all diagnostics to stderr, then how many errors there were. True if there were none.
+bool report(const Loaded& loaded);
+
+} // namespace scc::cli

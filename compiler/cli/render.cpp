@@ -1,0 +1,50 @@
+#include "compiler/backends/render.h"
+
+#include "compiler/cli/commands.h"
+#include "runtime/host/draw.h"
+#include "runtime/host/options.h"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+namespace scc::cli {
+
+namespace {
+
+struct Options {
+    SceneOptions scene;
+    host::RenderOptions render;
+    compiler::Precision precision = compiler::Precision::full;
+    std::string mode = "ray";
+};
+
+int render(const Options& options) {
+    if (options.mode == "raster") {
+        throw host::UsageError("raster mode is not supported yet; leave out `--mode raster`");
+    }
+    check_output(options.render);
+    const Loaded loaded = load(options.scene, Stage::scene);
+    if (!report(loaded)) {
+        return host::exit_scene;
+    }
+    host::Drawable drawable = compiler::make_drawable(loaded.scene, options.precision);
+    drawable.times_ms.insert(drawable.times_ms.begin(), loaded.times_ms.begin(), loaded.times_ms.end());
+    return draw(drawable, options.render);
+}
+
+} // namespace
+
+void add_render(CLI::App& app, Run& selected) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("render", "draw a scene in this process");
+    add_scene_options(*command, options->scene);
+    host::add_render_options(*command, options->render);
+    add_precision_option(*command, options->precision);
+    command->add_option("--mode", options->mode, "ray casting (raster is not supported yet)")
+        ->check(CLI::IsMember({"ray", "raster"}))
+        ->type_name("ray|raster");
+    command->callback([&selected, options] { selected = [options] { return render(*options); }; });
+}
+
+} // namespace scc::cli

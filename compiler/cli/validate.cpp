@@ -1,0 +1,266 @@
+#include "compiler/backends/render.h"
+#include "compiler/backends/table.h"
+#include "compiler/cli/commands.h"
+#include "compiler/cli/export.h"
+#include "compiler/cli/native.h"
+#include "runtime/host/file.h"
+#include "runtime/host/image_file.h"
+#include "runtime/host/options.h"
+#include "validation/renderers.h"
+#include "validation/report.h"
+#include "validation/scratch.h"
+#include "validation/subprocess.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <sstream>
+
+namespace scc::cli {
+
+namespace {
+
+using validation::RendererReport;
+using validation::RenderStatus;
+using validation::SceneReport;
+using validation::Verdict;
+
+struct Options {
+    SceneOptions scene;
+    std::vector<std::string> files;
+    std::string against = "pov,blender,native";
+    std::string report;
+    host::RenderOptions render; ///< size, samples, threads
+    double timeout_seconds = 1800;
+};
+
+/// A scene with our picture of it.
+struct Subject {
+    Loaded loaded;
+    runtime::RenderRequest request;
+    SceneReport report;
+    validation::ScratchFolder folder;
+};
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+runtime::Image draw_with(const Subject& subject, compiler::Precision precision) {
+    runtime::Image image(subject.request.settings.width, subject.request.settings.height);
+    compiler::make_drawable(subject.loaded.scene, precision).render(subject.request, image);
+    return image;
+}
+
+void draw_reference(Subject& subject) {
+    const auto start = std::chrono::steady_clock::now();
+    subject.report.reference = draw_with(subject, compiler::Precision::full);
+    subject.report.times.trace = seconds_since(start);
+    const runtime::RenderSettings& s = subject.request.settings;
+    const int samples = s.samples_per_axis * s.samples_per_axis;
+    subject.report.reference_made_by =
+        fmt::format("scc render --precision double --size {}x{} --samples {}", s.width, s.height, samples);
+
+    const validation::Metrics metrics =
+        validation::compare(subject.report.reference, draw_with(subject, compiler::Precision::single));
+    subject.report.description = fmt::format("{} x {}, {} samples per pixel. The same in float: max error "
+                                             "{:.2g}, away from edges {:.2g}, {} pixels above 1e-3.",
+                                             s.width, s.height, samples, metrics.all.max_error,
+                                             metrics.away_from_edges.max_error, metrics.all.above(1e-3));
+}
+
+// ---- the other pictures --------------------------------------------------------------------------------
+
+void judge(RendererReport& result, const Subject& subject, double exposure) {
+    const runtime::RenderSettings& s = subject.request.settings;
+    result.budget = validation::budget_for(result.renderer, s.width, s.height, s.samples_per_axis, exposure);
+    validation::CompareOptions options;
+    options.thresholds = validation::thresholds_for(*result.budget);
+    result.metrics = validation::compare(subject.report.reference, result.image, options);
+    result.judgement = validation::judge(*result.budget, *result.metrics);
+}
+
+RendererReport run_native(const Subject& subject) {
+    RendererReport result{.renderer = "native"};
+    const std::string program = (subject.folder.path() / "native").string();
+    const std::string blob_name = "scene.blob";
+    try {
+        compile_native(emit_cpp(subject.loaded.scene, compiler::Precision::full, blob_name), blob_name,
+                       program);
+    } catch (const EnvironmentError& error) {
+        result.judgement = {Verdict::skipped, error.what()};
+        return result;
+    }
+    const runtime::RenderSettings& s = subject.request.settings;
+    validation::Command command;
+    command.program = program;
+    command.directory = subject.folder.path();
+    command.arguments = {"-o",        "native.exr",
+                         "--size",    fmt::format("{}x{}", s.width, s.height),
+                         "--samples", std::to_string(s.samples_per_axis * s.samples_per_axis),
+                         "--threads", std::to_string(subject.request.threads)};
+    const validation::ProcessResult run = validation::run(command);
+    if (run.end == validation::ProcessEnd::interrupted) {
+        throw Interrupted{};
+    }
+    result.command = "./native";
+    for (const std::string& argument : command.arguments) {
+        result.command += " " + argument;
+    }
+    result.times.total = run.wall_seconds;
+    if (!run.ok()) {
+        result.judgement = {Verdict::failed, validation::describe(run, command) + "\n" + run.err};
+        return result;
+    }
+    result.image = host::read_image((subject.folder.path() / "native.exr").string());
+    judge(result, subject, 1);
+    return result;
+}
+
+RendererReport run_exported(const Subject& subject, const std::string& name, int threads,
+                            double timeout_seconds) {
+    RendererReport result{.renderer = name};
+    const compiler::Exporter& exporter = *compiler::find_exporter(name);
+    compiler::Ledger ledger;
+    const std::filesystem::path file = subject.folder.path() / ("scene" + std::string(exporter.extension));
+    host::replace_file(file.string(), exporter.emit(subject.loaded.scene, ledger));
+    result.ledger = ledger_rows(ledger, subject.loaded.sources);
+
+    validation::RenderJob job;
+    job.scene = file;
+    job.folder = subject.folder.path();
+    job.width = subject.request.settings.width;
+    job.height = subject.request.settings.height;
+    job.samples_per_axis = subject.request.settings.samples_per_axis;
+    job.threads = threads;
+    job.timeout_seconds = timeout_seconds;
+    job.brightest = validation::brightest_value(subject.report.reference);
+    validation::RenderResult run =
+        name == "pov" ? validation::render_with_povray(job) : validation::render_with_blender(job);
+    if (run.status == RenderStatus::interrupted) {
+        throw Interrupted{};
+    }
+    result.version = run.version;
+    result.command = run.command;
+    result.times = run.times;
+    result.warnings = std::move(run.warnings);
+    result.log = std::move(run.log);
+    if (run.status != RenderStatus::done) {
+        result.judgement = {run.status == RenderStatus::missing ? Verdict::skipped : Verdict::failed,
+                            run.reason};
+        return result;
+    }
+    result.image = std::move(run.image);
+    judge(result, subject, run.exposure);
+    return result;
+}
+
+// ---- the command ---------------------------------------------------------------------------------------
+
+std::vector<std::string> renderers_of(const std::string& list) {
+    std::vector<std::string> names;
+    std::istringstream stream(list);
+    for (std::string name; std::getline(stream, name, ',');) {
+        if (name != "native" && compiler::find_exporter(name) == nullptr) {
+            throw host::UsageError(
+                fmt::format("`{}` is no renderer to compare with; there are pov, blender and native", name));
+        }
+        names.push_back(name);
+    }
+    return names;
+}
+
+std::string summary_line(const RendererReport& result) {
+    std::string line =
+        fmt::format("  {:8} {:8}", result.renderer, validation::name_of(result.judgement.verdict));
+    if (result.metrics) {
+        const validation::Metrics& m = *result.metrics;
+        line += fmt::format(" max {:.2g}, away from edges {:.2g}, rmse {:.2g}, {} px > 2e-5, {} px > 1e-3",
+                            m.all.max_error, m.away_from_edges.max_error, m.all.rmse, m.all.above(2e-5),
+                            m.all.above(1e-3));
+    }
+    if (!result.judgement.reason.empty()) {
+        line += " (" + result.judgement.reason + ")";
+    }
+    return line + "\n";
+}
+
+// Nothing if the scene is wrong.
+std::unique_ptr<Subject> prepare_subject(const Options& options, const std::string& file) {
+    auto subject = std::make_unique<Subject>();
+    SceneOptions scene = options.scene;
+    scene.file = file;
+    subject->loaded = load(scene, Stage::scene);
+    if (!report(subject->loaded)) {
+        return nullptr;
+    }
+    subject->request = make_request(options.render, subject->loaded.scene.settings);
+    subject->report.name = subject->loaded.scene.name;
+    draw_reference(*subject);
+    return subject;
+}
+
+int validate(const Options& options) {
+    const std::vector<std::string> names = renderers_of(options.against);
+    validation::Report all;
+    all.versions.emplace_back("scc", SCC_VERSION);
+    bool fine = true;
+    for (const std::string& file : options.files) {
+        const std::unique_ptr<Subject> subject = prepare_subject(options, file);
+        if (subject == nullptr) {
+            fine = false;
+            continue;
+        }
+        write_result("-", fmt::format("{}\n", file));
+        for (const std::string& name : names) {
+            RendererReport result = name == "native" ? run_native(*subject)
+                                                     : run_exported(*subject, name, subject->request.threads,
+                                                                    options.timeout_seconds);
+            write_result("-", summary_line(result));
+            const std::pair<std::string, std::string> version{result.renderer, result.version};
+            if (!result.version.empty() &&
+                std::find(all.versions.begin(), all.versions.end(), version) == all.versions.end()) {
+                all.versions.push_back(version);
+            }
+            subject->report.renderers.push_back(std::move(result));
+        }
+        all.scenes.push_back(std::move(subject->report));
+    }
+    validation::write_report(all, options.report);
+    const validation::ReportSummary summary = validation::summarize(all);
+    write_result("-", fmt::format("{} passed, {} failed, {} skipped; report: {}/index.html\n", summary.passed,
+                                  summary.failed, summary.skipped, options.report));
+    if (!fine || summary.failed > 0) {
+        return host::exit_scene;
+    }
+    return summary.skipped > 0 ? host::exit_environment : host::exit_fine;
+}
+
+} // namespace
+
+void add_validate(CLI::App& app, Run& selected) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand(
+        "validate", "compare our picture with other renderers' pictures of the same scene");
+    command->add_option("FILE", options->files, "scenes, .scn files")->required();
+    add_scene_values(*command, options->scene);
+    command
+        ->add_option("--against", options->against,
+                     "pov, blender, native (the built program); separated by commas")
+        ->capture_default_str()
+        ->type_name("LIST");
+    command->add_option("--report", options->report, "folder for report.json, index.html and the pictures")
+        ->required()
+        ->type_name("DIR");
+    host::add_picture_options(*command, options->render);
+    command->add_option("--timeout", options->timeout_seconds, "seconds that one renderer may take")
+        ->capture_default_str();
+    command->footer("\nExits with 1 if a comparison is over its budget, with 3 if all that ran passed but a "
+                    "renderer is missing.");
+    command->callback([&selected, options] { selected = [options] { return validate(*options); }; });
+}
+
+} // namespace scc::cli

@@ -1,0 +1,81 @@
+#include "compiler/function_builder.h"
+
+#include <bit>
+#include <stdexcept>
+#include <string>
+
+namespace scc::compiler {
+
+std::uint32_t FunctionBuilder::add(const Key& key, const ir::Node& node) {
+    const auto [place, inserted] = known_.emplace(key, static_cast<std::uint32_t>(nodes_.size()));
+    if (inserted) {
+        nodes_.push_back(node);
+    }
+    return place->second;
+}
+
+std::uint32_t FunctionBuilder::constant(double value) {
+    return add({0, std::bit_cast<std::uint64_t>(value), {}},
+               {.kind = ir::Node::Kind::constant, .constant = value});
+}
+
+std::uint32_t FunctionBuilder::input(std::string_view name) {
+    for (int i = 0; i < ir::input_count; ++i) {
+        const auto input = static_cast<ir::Input>(i);
+        if (ir::name(input) == name) {
+            return add({1, static_cast<std::uint64_t>(i), {}},
+                       {.kind = ir::Node::Kind::input, .input = input});
+        }
+    }
+    throw std::logic_error("unknown input " + std::string(name));
+}
+
+std::uint32_t FunctionBuilder::apply(std::string_view op, const std::vector<std::uint32_t>& operands) {
+    const auto found = ir::find_operator(op);
+    if (!found || operands.size() != static_cast<std::size_t>(ir::row(*found).arity)) {
+        throw std::logic_error("unknown operator " + std::string(op));
+    }
+    ir::Node node{.kind = ir::Node::Kind::apply, .op = *found};
+    for (std::size_t i = 0; i < operands.size(); ++i) {
+        node.operands[i] = operands[i];
+    }
+    return add({2, static_cast<std::uint64_t>(*found), node.operands}, node);
+}
+
+ir::Function FunctionBuilder::finish(const std::vector<lang::Scalar>& results) {
+    std::vector<std::uint32_t> roots;
+    for (const lang::Scalar& scalar : results) {
+        roots.push_back(scalar.is_constant() ? constant(scalar.value) : scalar.symbol);
+    }
+    std::vector<bool> needed(nodes_.size());
+    for (const std::uint32_t root : roots) {
+        needed[root] = true;
+    }
+    // Operands come before the nodes that use them, so one pass from the end marks all.
+    for (std::size_t i = nodes_.size(); i-- > 0;) {
+        if (needed[i] && nodes_[i].kind == ir::Node::Kind::apply) {
+            for (int k = 0; k < ir::row(nodes_[i].op).arity; ++k) {
+                needed[nodes_[i].operands[static_cast<std::size_t>(k)]] = true;
+            }
+        }
+    }
+    ir::Function function;
+    std::vector<std::uint32_t> renumbered(nodes_.size());
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        if (!needed[i]) {
+            continue;
+        }
+        ir::Node node = nodes_[i];
+        for (std::uint32_t& operand : node.operands) {
+            operand = node.kind == ir::Node::Kind::apply ? renumbered[operand] : 0;
+        }
+        renumbered[i] = static_cast<std::uint32_t>(function.nodes.size());
+        function.nodes.push_back(node);
+    }
+    for (const std::uint32_t root : roots) {
+        function.results.push_back(renumbered[root]);
+    }
+    return function;
+}
+
+} // namespace scc::compiler

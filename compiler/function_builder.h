@@ -1,0 +1,32 @@
+#pragma once
+
+#include "compiler/ir/function.h"
+#include "lang/value.h"
+
+#include <cstdint>
+#include <map>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+namespace scc::compiler {
+
+/// Records the operations of one per-point function; an operation that was recorded before is reused.
+class FunctionBuilder : public lang::SymbolBuilder {
+public:
+    std::uint32_t constant(double value) override;
+    std::uint32_t input(std::string_view name) override;
+    std::uint32_t apply(std::string_view op, const std::vector<std::uint32_t>& operands) override;
+
+    /// The function with these results; nodes that no result needs are left out.
+    ir::Function finish(const std::vector<lang::Scalar>& results);
+
+private:
+    using Key = std::tuple<int, std::uint64_t, std::array<std::uint32_t, 3>>;
+    std::uint32_t add(const Key& key, const ir::Node& node);
+
+    std::vector<ir::Node> nodes_;
+    std::map<Key, std::uint32_t> known_;
+};
+
+} // namespace scc::compiler

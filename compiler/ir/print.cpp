@@ -1,0 +1,198 @@
+#include "compiler/ir/print.h"
+
+#include "compiler/ir/traits.h"
+#include "compiler/writer.h"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <tuple>
+
+namespace scc::compiler::ir {
+
+namespace {
+
+using runtime::Affine;
+using runtime::Rgb;
+using runtime::Varying;
+using runtime::Vec3;
+
+std::string text(double v) {
+    return fmt::format("{}", v);
+}
+std::string text(bool v) {
+    return v ? "true" : "false";
+}
+std::string text(const Vec3<double>& v) {
+    return fmt::format("({}, {}, {})", v.x, v.y, v.z);
+}
+std::string text(const Rgb<double>& c) {
+    return fmt::format("rgb({}, {}, {})", c.r, c.g, c.b);
+}
+template <std::size_t N>
+std::string text(const std::array<Vec3<double>, N>& list) {
+    std::string result;
+    for (const Vec3<double>& v : list) {
+        result += (result.empty() ? "[" : ", ") + text(v);
+    }
+    return result + "]";
+}
+template <class T>
+std::string text(const Varying<T>& v, const Scene& scene) {
+    if (v.function == runtime::no_function) {
+        return text(v.value);
+    }
+    return fmt::format("fn {} #{}", comment_text(scene.functions[static_cast<std::size_t>(v.function)].name),
+                       v.function);
+}
+
+void print_function(Writer& out, const Function& function, std::size_t index) {
+    out.line("fn {} #{} {{", comment_text(function.name), index);
+    out.indent();
+    for (std::size_t i = 0; i < function.nodes.size(); ++i) {
+        const Node& node = function.nodes[i];
+        std::string what;
+        switch (node.kind) {
+        case Node::Kind::constant:
+            what = text(node.constant);
+            break;
+        case Node::Kind::input:
+            what = name(node.input);
+            break;
+        case Node::Kind::apply:
+            what = row(node.op).name;
+            for (int k = 0; k < row(node.op).arity; ++k) {
+                what += fmt::format(" %{}", node.operands[static_cast<std::size_t>(k)]);
+            }
+            break;
+        }
+        out.line("%{} = {}", i, what);
+    }
+    std::string results;
+    for (const std::uint32_t result : function.results) {
+        results += fmt::format(" %{}", result);
+    }
+    out.line("return{}", results);
+    out.dedent();
+    out.line("}}");
+}
+
+void print_material(Writer& out, const Material& material, const Scene& scene) {
+    out.line("material {} {{", quote(Language::cpp, material.name));
+    out.indent();
+    const runtime::Phong<double>& p = material.phong;
+    const std::pair<const char*, const Varying<Rgb<double>>*> colors[] = {{"ambient", &p.ambient},
+                                                                          {"diffuse", &p.diffuse},
+                                                                          {"specular", &p.specular},
+                                                                          {"emission", &p.emission},
+                                                                          {"reflect", &p.reflect}};
+    for (const auto& [field, value] : colors) {
+        out.line("{} = {}", field, text(*value, scene));
+    }
+    out.line("shininess = {}", text(p.shininess, scene));
+    out.dedent();
+    out.line("}}");
+}
+
+template <class Shape>
+std::string shape_text(const Shape& shape, const Scene& scene) {
+    if constexpr (requires { Shape::fields(); }) {
+        std::string fields;
+        const auto add = [&](const auto& field) {
+            if (field.present == nullptr || shape.*field.present) {
+                fields += fmt::format("{}{} = {}", fields.empty() ? "" : ", ", field.name,
+                                      text(shape.*field.member));
+            }
+        };
+        std::apply([&](const auto&... field) { (add(field), ...); }, Shape::fields());
+        return fmt::format("{} {{ {} }}", Shape::name, fields);
+    } else {
+        return fmt::format("{} {{ {} }}", Shape::name, quote(Language::cpp, scene.meshes[shape.mesh].name));
+    }
+}
+
+void print_object(Writer& out, const Object& object, const Scene& scene) {
+    out.line("object {} {{", quote(Language::cpp, object.path));
+    out.indent();
+    out.raw_line(std::visit([&](const auto& shape) { return shape_text(shape, scene); }, object.shape));
+    if (!(object.world_from_object == Affine<double>{})) {
+        for (const auto& r : object.world_from_object.m) {
+            out.line("| {} {} {} {} |", r[0], r[1], r[2], r[3]);
+        }
+    }
+    const std::string front = quote(Language::cpp, scene.materials[object.sides.front].name);
+    if (object.sides.front == object.sides.back) {
+        out.line("material = {}", front);
+    } else {
+        out.line("front = {}, back = {}", front,
+                 quote(Language::cpp, scene.materials[object.sides.back].name));
+    }
+    out.dedent();
+    out.line("}}");
+}
+
+std::string light_text(const runtime::PointLight<double>& l) {
+    return fmt::format("point position = {}, diffuse = {}, specular = {}, attenuation = ({}, {}, {})",
+                       text(l.position), text(l.diffuse), text(l.specular), l.kc, l.kl, l.kq);
+}
+std::string light_text(const runtime::DirectionalLight<double>& l) {
+    return fmt::format("directional to_light = {}, diffuse = {}, specular = {}", text(l.to_light),
+                       text(l.diffuse), text(l.specular));
+}
+
+std::string shape_names(std::uint32_t bits) {
+    std::string names;
+    const auto add = [&]<class... All>(runtime::TypeList<All...>) {
+        std::uint32_t bit = 1;
+        ((names += (bits & bit) != 0 ? fmt::format(" {}", All::name) : "", bit <<= 1), ...);
+    };
+    add(runtime::Shapes<double>{});
+    return names.empty() ? " none" : names;
+}
+
+void print_traits(Writer& out, const runtime::SceneTraits& t) {
+    out.line("bare shapes:{}", shape_names(t.bare_shapes));
+    out.line("placed shapes:{}", shape_names(t.placed_shapes));
+    std::string needs;
+    for (const TraitFlag& flag : trait_flags) {
+        needs += t.*flag.member ? fmt::format(" {}", flag.name) : "";
+    }
+    out.line("needs:{}", needs);
+}
+
+} // namespace
+
+std::string print(const Scene& scene) {
+    Writer out(2);
+    out.line("scene {}", quote(Language::cpp, scene.name));
+    const runtime::RenderSettings& s = scene.settings;
+    out.line("picture {} x {}, {} x {} samples, depth {}, shadows {}", s.width, s.height, s.samples_per_axis,
+             s.samples_per_axis, s.depth, text(s.shadows));
+    const runtime::Camera<double>& c = scene.camera;
+    out.line("camera {} eye = {}, u = {}, v = {}, n = {}, half_height = {}, shift = ({}, {})",
+             c.projection == runtime::Projection::perspective ? "perspective" : "orthographic", text(c.eye),
+             text(c.u), text(c.v), text(c.n), c.half_height, c.shift_x, c.shift_y);
+    out.line("ambient = {}", text(scene.ambient));
+    out.line("background = {}", text(scene.background));
+    print_traits(out, scene.traits);
+    for (const Light& light : scene.lights) {
+        out.line("light {} {}", quote(Language::cpp, light.name),
+                 std::visit([](const auto& l) { return light_text(l); }, light.light));
+    }
+    for (std::size_t i = 0; i < scene.functions.size(); ++i) {
+        print_function(out, scene.functions[i], i);
+    }
+    for (const Mesh& mesh : scene.meshes) {
+        out.line("mesh {} {} vertices, {} normals, {} triangles", quote(Language::cpp, mesh.name),
+                 mesh.positions.size() / 3, mesh.normals.size() / 3, mesh.indices.size() / 3);
+    }
+    for (const Material& material : scene.materials) {
+        print_material(out, material, scene);
+    }
+    for (const Object& object : scene.objects) {
+        print_object(out, object, scene);
+    }
+    return out.take();
+}
+
+} // namespace scc::compiler::ir

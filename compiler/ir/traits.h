@@ -1,0 +1,35 @@
+#pragma once
+
+#include "runtime/scene.h"
+
+#include <array>
+#include <string_view>
+
+namespace scc::compiler::ir {
+
+/// A yes-or-no need of a scene, as SceneTraits holds it.
+struct TraitFlag {
+    std::string_view name;
+    bool runtime::SceneTraits::*member;
+};
+
+/// All of them, in the order of the members: the one table that the IR's text, the statistics and the
+/// generated program are written from.
+inline constexpr auto trait_flags = std::to_array<TraitFlag>({
+    {"point_lights", &runtime::SceneTraits::point_lights},
+    {"directional_lights", &runtime::SceneTraits::directional_lights},
+    {"attenuation", &runtime::SceneTraits::attenuation},
+    {"separate_specular", &runtime::SceneTraits::separate_specular},
+    {"specular", &runtime::SceneTraits::specular},
+    {"emission", &runtime::SceneTraits::emission},
+    {"reflection", &runtime::SceneTraits::reflection},
+    {"two_sided", &runtime::SceneTraits::two_sided},
+    {"functions", &runtime::SceneTraits::functions},
+    {"smooth_normals", &runtime::SceneTraits::smooth_normals},
+    {"shadows", &runtime::SceneTraits::shadows},
+    {"accelerator", &runtime::SceneTraits::accelerator},
+    {"perspective", &runtime::SceneTraits::perspective},
+    {"orthographic", &runtime::SceneTraits::orthographic},
+});
+
+} // namespace scc::compiler::ir

@@ -1,0 +1,112 @@
+#include "compiler/ir/verify.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+
+namespace scc::compiler::ir {
+
+namespace {
+
+void require(bool condition, std::string_view what, std::string_view where) {
+    if (!condition) {
+        throw std::logic_error(fmt::format("internal error in the scene IR: {} ({})", what, where));
+    }
+}
+
+void verify_function(const Function& function) {
+    for (std::size_t i = 0; i < function.nodes.size(); ++i) {
+        const Node& node = function.nodes[i];
+        const int arity = node.kind == Node::Kind::apply ? row(node.op).arity : 0;
+        for (int k = 0; k < arity; ++k) {
+            require(node.operands[static_cast<std::size_t>(k)] < i, "an operand comes after its use",
+                    function.name);
+        }
+    }
+    require(function.results.size() == 1 || function.results.size() == 3,
+            "a function has one result or three", function.name);
+    for (const std::uint32_t result : function.results) {
+        require(result < function.nodes.size(), "a result is no node", function.name);
+    }
+}
+
+void verify_varying(std::int32_t index, std::size_t results, const Scene& scene, std::string_view where) {
+    require(index < static_cast<std::int32_t>(scene.functions.size()), "no such function", where);
+    require(index < 0 || scene.functions[static_cast<std::size_t>(index)].results.size() == results,
+            "a function has the wrong number of results", where);
+}
+
+void verify_material(const Material& material, const Scene& scene) {
+    const runtime::Phong<double>& p = material.phong;
+    for (const auto* color : {&p.ambient, &p.diffuse, &p.specular, &p.emission, &p.reflect}) {
+        verify_varying(color->function, 3, scene, material.name);
+        require(std::isfinite(color->value.r + color->value.g + color->value.b), "a colour is not finite",
+                material.name);
+    }
+    verify_varying(p.shininess.function, 1, scene, material.name);
+}
+
+void verify_object(const Object& object, const Scene& scene) {
+    require(object.sides.front < scene.materials.size() && object.sides.back < scene.materials.size(),
+            "no such material", object.path);
+    for (const auto& matrix_row : object.world_from_object.m) {
+        for (const double entry : matrix_row) {
+            require(std::isfinite(entry), "a transform is not finite", object.path);
+        }
+    }
+    if (const auto* mesh = std::get_if<runtime::Mesh<double>>(&object.shape)) {
+        require(mesh->mesh < scene.meshes.size(), "no such mesh", object.path);
+    }
+}
+
+void verify_mesh(const Mesh& mesh) {
+    require(mesh.indices.size() % 3 == 0 && !mesh.indices.empty(), "a mesh has whole triangles", mesh.name);
+    require(mesh.normal_indices.empty() || mesh.normal_indices.size() == mesh.indices.size(),
+            "one normal per corner", mesh.name);
+    for (const std::uint32_t index : mesh.indices) {
+        require(index < mesh.positions.size() / 3, "no such vertex", mesh.name);
+    }
+    for (const std::uint32_t index : mesh.normal_indices) {
+        require(index < mesh.normals.size() / 3, "no such normal", mesh.name);
+    }
+}
+
+template <class Entries, class Name>
+void verify_unique(const Entries& entries, Name name, std::string_view what) {
+    std::set<std::string_view> names;
+    for (const auto& entry : entries) {
+        require(names.insert(name(entry)).second, what, name(entry));
+    }
+}
+
+} // namespace
+
+void verify(const Scene& scene) {
+    for (const Function& function : scene.functions) {
+        verify_function(function);
+    }
+    for (const Material& material : scene.materials) {
+        verify_material(material, scene);
+    }
+    for (const Object& object : scene.objects) {
+        verify_object(object, scene);
+    }
+    for (const Mesh& mesh : scene.meshes) {
+        verify_mesh(mesh);
+    }
+    verify_unique(
+        scene.materials, [](const Material& m) -> std::string_view { return m.name; },
+        "two materials share a name");
+    verify_unique(
+        scene.objects, [](const Object& o) -> std::string_view { return o.path; },
+        "two objects share a path");
+    verify_unique(
+        scene.lights, [](const Light& l) -> std::string_view { return l.name; }, "two lights share a name");
+    verify_unique(
+        scene.meshes, [](const Mesh& m) -> std::string_view { return m.name; }, "two meshes share a name");
+}
+
+} // namespace scc::compiler::ir

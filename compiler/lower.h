@@ -1,0 +1,24 @@
+#pragma once
+
+#include "compiler/assets.h"
+#include "compiler/ir/scene.h"
+#include "lang/check.h"
+#include "lang/diagnostic.h"
+
+#include <string>
+
+namespace scc::compiler {
+
+struct LowerOptions {
+    std::string name; ///< of the scene: the file's, without folder and extension
+    AssetPolicy assets;
+    std::string camera; ///< --camera; empty: the scene's choice
+};
+
+/// Makes the Scene IR from a checked module: groups are taken apart into objects with composed transforms,
+/// inherited materials are resolved, per-point functions are recorded, meshes are read. Reports what only
+/// shows here (a shape that encloses nothing, a mesh file that cannot be read); the scene is only meaningful
+/// if no error was reported.
+ir::Scene lower(const lang::Module& module, const LowerOptions& options, lang::Diagnostics& diagnostics);
+
+} // namespace scc::compiler

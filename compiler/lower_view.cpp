@@ -1,0 +1,258 @@
+#include "compiler/lower_view.h"
+
+#include "compiler/bounds.h"
+#include "compiler/values.h"
+#include "lang/schema.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+namespace scc::compiler {
+
+using lang::Diag;
+using lang::Thing;
+using lang::TypeKind;
+using runtime::Vec3;
+
+namespace {
+
+std::vector<const Thing*> things_of(const lang::Module& module, TypeKind type) {
+    std::vector<const Thing*> found;
+    for (const lang::ThingPtr& item : module.items) {
+        if (item->constructor->type == type) {
+            found.push_back(item.get());
+        }
+    }
+    return found;
+}
+
+std::vector<const Thing*> settings_of(const lang::Module& module, std::string_view name) {
+    std::vector<const Thing*> found = things_of(module, TypeKind::setting);
+    std::erase_if(found, [&](const Thing* thing) { return thing->constructor->name != name; });
+    return found;
+}
+
+const Thing* method_of(const Thing& render) {
+    const lang::Value* method = render.get("method");
+    return method != nullptr ? to_thing(*method).get() : nullptr;
+}
+
+// The first render that ray mode can draw; renders for raster mode are said to be left out.
+const Thing* ray_render(const lang::Module& module, lang::Diagnostics* diagnostics) {
+    const Thing* chosen = nullptr;
+    for (const Thing* render : settings_of(module, "render")) {
+        const Thing* method = method_of(*render);
+        if (method != nullptr && method->constructor->name == "raster") {
+            if (diagnostics != nullptr) {
+                diagnostics->report(Diag::raster_skipped, place_of(*render, "method"));
+            }
+        } else if (chosen == nullptr) {
+            chosen = render;
+        }
+    }
+    return chosen;
+}
+
+// ---- camera
+// ------------------------------------------------------------------------------------------------
+
+const Thing* choose_camera(const lang::Module& module, const LowerOptions& options,
+                           lang::Diagnostics& diagnostics) {
+    const std::vector<const Thing*> cameras = things_of(module, TypeKind::camera);
+    std::string wanted = options.camera;
+    lang::Span place;
+    if (const Thing* render = ray_render(module, nullptr);
+        wanted.empty() && render != nullptr && render->find("camera") != nullptr) {
+        wanted = to_text(*render->get("camera"));
+        place = place_of(*render, "camera");
+    }
+    if (wanted.empty()) {
+        return cameras.empty() ? nullptr : cameras.front();
+    }
+    std::string names;
+    for (const Thing* camera : cameras) {
+        if (camera->name == wanted) {
+            return camera;
+        }
+        if (!camera->name.empty()) {
+            names += (names.empty() ? "; there is `" : ", `") + camera->name + "`";
+        }
+    }
+    diagnostics.report(Diag::unknown_camera, place, wanted,
+                       names.empty() ? "; a camera gets its name from `let name = perspective_camera { }`"
+                                     : names);
+    return cameras.empty() ? nullptr : cameras.front();
+}
+
+// L2. False if the frame does not exist.
+bool orient(runtime::Camera<double>& camera, Vec3<double> target, Vec3<double> up) {
+    const Vec3<double> back = camera.eye - target;
+    if (!(dot(back, back) > 0)) {
+        return false;
+    }
+    camera.n = normalize(back);
+    const Vec3<double> right = cross(normalize(up), camera.n);
+    if (!(dot(right, right) > 1e-24)) {
+        return false;
+    }
+    camera.u = normalize(right);
+    camera.v = cross(camera.n, camera.u);
+    return true;
+}
+
+void frame_everything(ir::Scene& scene, lang::Diagnostics& diagnostics) {
+    const runtime::Bounds<double> box = world_bounds(scene);
+    const bool bounded = box.min.x <= box.max.x;
+    const Vec3<double> center = bounded ? 0.5 * (box.min + box.max) : Vec3<double>{0, 0, 0};
+    const double radius = bounded ? 0.5 * length(box.max - box.min) : 1;
+    const double fov_y = std::numbers::pi / 4;
+    runtime::Camera<double>& camera = scene.camera;
+    camera.half_height = std::tan(fov_y / 2);
+    const double narrow = std::min(1.0, static_cast<double>(scene.settings.width) / scene.settings.height);
+    const double distance = radius / std::sin(std::atan(narrow * camera.half_height));
+    camera.eye = center + distance * normalize(Vec3<double>{1, 0.8, 2});
+    orient(camera, center, {0, 1, 0});
+    scene.near = std::max(distance - radius, 1e-3 * distance);
+    scene.far = distance + radius;
+    diagnostics.report(
+        Diag::no_camera, lang::Span{},
+        fmt::format(
+            "perspective_camera {{ eye = ({:.4g}, {:.4g}, {:.4g}), target = ({:.4g}, {:.4g}, {:.4g}) }}",
+            camera.eye.x, camera.eye.y, camera.eye.z, center.x, center.y, center.z));
+}
+
+// ---- lights --------------------------------------------------------------------------------------------
+
+void set_colors(const Thing& thing, runtime::Rgb<double>& diffuse, runtime::Rgb<double>& specular) {
+    diffuse = to_rgb(*thing.get("color"));
+    specular = thing.find("specular") != nullptr ? to_rgb(*thing.get("specular")) : diffuse;
+}
+
+runtime::PointLight<double> point_light(const Thing& thing, lang::Diagnostics& diagnostics) {
+    runtime::PointLight<double> light;
+    light.position = to_vec3(*thing.get("position"));
+    const Vec3<double> k = to_vec3(*thing.get("attenuation"));
+    light.kc = k.x;
+    light.kl = k.y;
+    light.kq = k.z;
+    if (k.x == 0 && k.y == 0 && k.z == 0) {
+        diagnostics.report(Diag::impossible_light, place_of(thing, "attenuation"),
+                           "the attenuation is (0, 0, 0); one of kc, kl, kq is greater than 0");
+    }
+    set_colors(thing, light.diffuse, light.specular);
+    return light;
+}
+
+runtime::DirectionalLight<double> directional_light(const Thing& thing, lang::Diagnostics& diagnostics) {
+    runtime::DirectionalLight<double> light;
+    const bool direction = thing.find("direction") != nullptr;
+    if (direction == (thing.find("towards") != nullptr)) {
+        diagnostics.report(Diag::impossible_light, thing.span,
+                           direction
+                               ? "this light has both `direction` and `towards`; one of them says where it is"
+                               : "this light has neither `direction` nor `towards`");
+        return light;
+    }
+    light.to_light =
+        direction ? normalize(-to_vec3(*thing.get("direction"))) : normalize(to_vec3(*thing.get("towards")));
+    set_colors(thing, light.diffuse, light.specular);
+    return light;
+}
+
+std::string unique_light_name(const Thing& thing, std::set<std::string>& taken) {
+    const std::string wanted = thing.name.empty() ? std::string(thing.constructor->name) : thing.name;
+    std::string name = wanted;
+    for (int i = 2; !taken.insert(name).second; ++i) {
+        name = fmt::format("{} {}", wanted, i);
+    }
+    return name;
+}
+
+} // namespace
+
+void lower_settings(const lang::Module& module, ir::Scene& scene, lang::Diagnostics& diagnostics) {
+    if (const auto worlds = settings_of(module, "world"); !worlds.empty()) {
+        scene.ambient = to_rgb(*worlds.back()->get("ambient"));
+        scene.background = to_rgb(*worlds.back()->get("background"));
+    }
+    const Thing* render = ray_render(module, &diagnostics);
+    if (render == nullptr) {
+        return;
+    }
+    const auto& size = std::get<lang::Vec2Value>(render->get("size")->v).v;
+    scene.settings.width = static_cast<int>(size[0].value);
+    scene.settings.height = static_cast<int>(size[1].value);
+    if (to_text(*render->get("sampling")) == "corner") {
+        diagnostics.report(Diag::unsupported_setting, place_of(*render, "sampling"),
+                           "sampling at the pixel's corner");
+    }
+    if (const Thing* method = method_of(*render); method != nullptr) {
+        scene.settings.depth = static_cast<int>(to_number(*method->get("depth")));
+        scene.settings.samples_per_axis =
+            static_cast<int>(std::lround(std::sqrt(to_number(*method->get("samples")))));
+        scene.settings.shadows = to_bool(*method->get("shadows"));
+    }
+}
+
+void lower_camera(const lang::Module& module, const LowerOptions& options, ir::Scene& scene,
+                  lang::Diagnostics& diagnostics) {
+    const Thing* thing = choose_camera(module, options, diagnostics);
+    if (thing == nullptr) {
+        frame_everything(scene, diagnostics);
+        return;
+    }
+    scene.camera_span = thing->span;
+    runtime::Camera<double>& camera = scene.camera;
+    camera.eye = to_vec3(*thing->get("eye"));
+    if (!orient(camera, to_vec3(*thing->get("target")), to_vec3(*thing->get("up")))) {
+        diagnostics.report(Diag::impossible_camera, thing->span,
+                           "the camera's frame does not exist: `target` lies at `eye`, or `up` is parallel "
+                           "to the line of sight");
+    }
+    scene.near = to_number(*thing->get("near"));
+    scene.far = to_number(*thing->get("far"));
+    if (scene.near >= scene.far) {
+        diagnostics.report(
+            Diag::impossible_camera, place_of(*thing, "near"),
+            fmt::format("near is {} and far is {}; near is less than far", scene.near, scene.far));
+    }
+    const auto& shift = std::get<lang::Vec2Value>(thing->get("shift")->v).v;
+    camera.shift_x = shift[0].value;
+    camera.shift_y = shift[1].value;
+    if (thing->constructor->name == "perspective_camera") {
+        camera.projection = runtime::Projection::perspective;
+        camera.half_height = std::tan(to_radians(*thing->get("fov_y")) / 2);
+    } else {
+        camera.projection = runtime::Projection::orthographic;
+        camera.half_height = to_number(*thing->get("height")) / 2;
+    }
+}
+
+void lower_lights(const lang::Module& module, ir::Scene& scene, lang::Diagnostics& diagnostics) {
+    std::set<std::string> names;
+    const std::vector<const Thing*> things = things_of(module, TypeKind::light);
+    for (const Thing* thing : things) {
+        if (!to_bool(*thing->get("enabled"))) {
+            continue;
+        }
+        ir::Light light{.light = {}, .name = unique_light_name(*thing, names), .span = thing->span};
+        if (thing->constructor->name == "point_light") {
+            light.light = point_light(*thing, diagnostics);
+        } else {
+            light.light = directional_light(*thing, diagnostics);
+        }
+        scene.lights.push_back(std::move(light));
+    }
+    if (things.empty()) {
+        diagnostics.report(Diag::no_light, lang::Span{});
+        scene.lights.push_back({.light = runtime::DirectionalLight<double>{.to_light = scene.camera.n},
+                                .name = "headlight",
+                                .span = {}});
+    }
+}
+
+} // namespace scc::compiler

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "compiler/ir/scene.h"
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace scc::compiler {
+
+enum class MeshNormals { file, smooth, flat };
+
+/// What is wrong with a mesh file, in words that name the place in it.
+struct MeshError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+struct LoadedMesh {
+    ir::Mesh mesh;
+    std::vector<std::string> warnings;
+};
+
+/// Reads a Wavefront OBJ file through tinyobjloader: polygons are split into triangles, degenerate triangles
+/// are left out. `smooth` normals are the face normals around a vertex, weighted by their angle there; `file`
+/// falls back to flat shading where the file has no normals. Throws MeshError on what cannot be drawn: no
+/// faces, indices beyond the vertices, coordinates that are not finite, faces with fewer than three corners
+/// (a truncated file).
+LoadedMesh load_obj(const std::filesystem::path& path, MeshNormals normals);
+
+} // namespace scc::compiler

@@ -1,0 +1,75 @@
+#include "compiler/passes/passes.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace scc::compiler {
+
+namespace {
+
+using runtime::Affine;
+using runtime::Rgb;
+using runtime::SceneTraits;
+using runtime::Varying;
+
+bool is_present(const Varying<Rgb<double>>& color) {
+    return color.function != runtime::no_function || !(color.value == Rgb<double>{});
+}
+
+void need(SceneTraits& traits, const ir::Object& object, const ir::Scene& scene) {
+    const std::uint32_t bit = 1U << object.shape.index();
+    (object.world_from_object == Affine<double>{} ? traits.bare_shapes : traits.placed_shapes) |= bit;
+    traits.two_sided |= object.sides.front != object.sides.back;
+    if (const auto* triangle = std::get_if<runtime::Triangle<double>>(&object.shape)) {
+        traits.smooth_normals |= triangle->smooth;
+    } else if (const auto* mesh = std::get_if<runtime::Mesh<double>>(&object.shape)) {
+        traits.smooth_normals |= !scene.meshes[mesh->mesh].normals.empty();
+    }
+}
+
+void need(SceneTraits& traits, const runtime::Phong<double>& p, int depth) {
+    traits.specular |= is_present(p.specular);
+    traits.emission |= is_present(p.emission);
+    traits.reflection |= depth > 0 && is_present(p.reflect);
+    for (const std::int32_t function : {p.ambient.function, p.diffuse.function, p.specular.function,
+                                        p.emission.function, p.reflect.function, p.shininess.function}) {
+        traits.functions |= function != runtime::no_function;
+    }
+}
+
+void need(SceneTraits& traits, const runtime::PointLight<double>& light) {
+    traits.point_lights = true;
+    traits.attenuation |= light.kc != 1 || light.kl != 0 || light.kq != 0;
+    traits.separate_specular |= !(light.diffuse == light.specular);
+}
+
+void need(SceneTraits& traits, const runtime::DirectionalLight<double>& light) {
+    traits.directional_lights = true;
+    traits.separate_specular |= !(light.diffuse == light.specular);
+}
+
+} // namespace
+
+void derive_traits(ir::Scene& scene) {
+    SceneTraits traits;
+    for (const ir::Object& object : scene.objects) {
+        need(traits, object, scene);
+    }
+    for (const ir::Material& material : scene.materials) {
+        need(traits, material.phong, scene.settings.depth);
+    }
+    for (const ir::Light& light : scene.lights) {
+        std::visit([&](const auto& l) { need(traits, l); }, light.light);
+    }
+    const auto bounded =
+        std::count_if(scene.objects.begin(), scene.objects.end(), [](const ir::Object& object) {
+            return !std::holds_alternative<runtime::Plane<double>>(object.shape);
+        });
+    traits.accelerator = static_cast<std::size_t>(bounded) > runtime::accelerator_threshold;
+    traits.shadows = scene.settings.shadows && !scene.lights.empty();
+    traits.perspective = scene.camera.projection == runtime::Projection::perspective;
+    traits.orthographic = scene.camera.projection == runtime::Projection::orthographic;
+    scene.traits = traits;
+}
+
+} // namespace scc::compiler

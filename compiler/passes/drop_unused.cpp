@@ -1,0 +1,104 @@
+#include "compiler/passes/passes.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace scc::compiler {
+
+namespace {
+
+using runtime::Rgb;
+
+// Keeps the marked entries in their order; returns the new index of every old one.
+template <class T>
+std::vector<std::uint32_t> keep(std::vector<T>& entries, const std::vector<bool>& used) {
+    std::vector<std::uint32_t> renumbered(entries.size());
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        if (used[i]) {
+            renumbered[i] = static_cast<std::uint32_t>(count);
+            if (count != i) {
+                entries[count] = std::move(entries[i]);
+            }
+            ++count;
+        }
+    }
+    entries.resize(count);
+    return renumbered;
+}
+
+bool is_black(const Rgb<double>& c) {
+    return c == Rgb<double>{};
+}
+
+bool gives_nothing(const ir::Light& light) {
+    return std::visit([](const auto& l) { return is_black(l.diffuse) && is_black(l.specular); }, light.light);
+}
+
+template <class Visit>
+void for_each_function_index(runtime::Phong<double>& phong, Visit visit) {
+    visit(phong.ambient.function);
+    visit(phong.diffuse.function);
+    visit(phong.specular.function);
+    visit(phong.emission.function);
+    visit(phong.reflect.function);
+    visit(phong.shininess.function);
+}
+
+void drop_materials(ir::Scene& scene) {
+    std::vector<bool> used(scene.materials.size());
+    for (const ir::Object& object : scene.objects) {
+        used[object.sides.front] = true;
+        used[object.sides.back] = true;
+    }
+    const auto renumbered = keep(scene.materials, used);
+    for (ir::Object& object : scene.objects) {
+        object.sides = {renumbered[object.sides.front], renumbered[object.sides.back]};
+    }
+}
+
+void drop_functions(ir::Scene& scene) {
+    std::vector<bool> used(scene.functions.size());
+    for (ir::Material& material : scene.materials) {
+        for_each_function_index(material.phong, [&](std::int32_t index) {
+            if (index >= 0) {
+                used[static_cast<std::size_t>(index)] = true;
+            }
+        });
+    }
+    const auto renumbered = keep(scene.functions, used);
+    for (ir::Material& material : scene.materials) {
+        for_each_function_index(material.phong, [&](std::int32_t& index) {
+            if (index >= 0) {
+                index = static_cast<std::int32_t>(renumbered[static_cast<std::size_t>(index)]);
+            }
+        });
+    }
+}
+
+void drop_meshes(ir::Scene& scene) {
+    std::vector<bool> used(scene.meshes.size());
+    for (const ir::Object& object : scene.objects) {
+        if (const auto* mesh = std::get_if<runtime::Mesh<double>>(&object.shape)) {
+            used[mesh->mesh] = true;
+        }
+    }
+    const auto renumbered = keep(scene.meshes, used);
+    for (ir::Object& object : scene.objects) {
+        if (auto* mesh = std::get_if<runtime::Mesh<double>>(&object.shape)) {
+            mesh->mesh = renumbered[mesh->mesh];
+        }
+    }
+}
+
+} // namespace
+
+void drop_unused(ir::Scene& scene) {
+    std::erase_if(scene.lights, gives_nothing);
+    drop_materials(scene);
+    drop_functions(scene);
+    drop_meshes(scene);
+}
+
+} // namespace scc::compiler

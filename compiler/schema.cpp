@@ -1,0 +1,436 @@
+#include "compiler/schema.h"
+
+#include "runtime/field.h"
+#include "runtime/shapes/list.h"
+
+#include <array>
+#include <numbers>
+#include <tuple>
+#include <utility>
+
+namespace scc::compiler {
+
+namespace {
+
+using lang::Constructor;
+using lang::Field;
+using lang::Limits;
+using lang::Type;
+using lang::TypeKind;
+using lang::Value;
+
+constexpr double pi = std::numbers::pi;
+
+// ---- values and limits ---------------------------------------------------------------------------------
+
+Value number(double v) {
+    return {lang::NumberValue{{v}}};
+}
+Value angle_degrees(double v) {
+    return {lang::AngleValue{{v * pi / 180}}};
+}
+Value boolean(bool v) {
+    return {lang::BoolValue{{v ? 1.0 : 0.0}}};
+}
+Value text(std::string v) {
+    return {std::move(v)};
+}
+Value vec2(double x, double y) {
+    return {lang::Vec2Value{{{{x}, {y}}}}};
+}
+Value vec3(double x, double y, double z) {
+    return {lang::Vec3Value{{{{x}, {y}, {z}}}}};
+}
+Value grey(double v) {
+    return {lang::ColorValue{{{{v}, {v}, {v}}}}};
+}
+
+Limits positive(std::string_view rule) {
+    return {.min = 0, .min_excluded = true, .rule = rule};
+}
+Limits at_least(double min, std::string_view rule) {
+    return {.min = min, .rule = rule};
+}
+const Limits non_negative = at_least(0, "it is at least 0");
+
+Limits limits_of(runtime::Rule rule) {
+    switch (rule) {
+    case runtime::Rule::any:
+        return {};
+    case runtime::Rule::positive:
+        return positive("a radius is greater than 0");
+    case runtime::Rule::non_negative:
+        return non_negative;
+    case runtime::Rule::nonzero_vector:
+        return {.nonzero_vector = true, .rule = "a direction has a length"};
+    }
+    return {};
+}
+
+// ---- shapes, from their own descriptions ---------------------------------------------------------------
+
+Type type_of(double) {
+    return TypeKind::number;
+}
+Type type_of(bool) {
+    return TypeKind::boolean;
+}
+Type type_of(const runtime::Vec3<double>&) {
+    return TypeKind::vec3;
+}
+template <std::size_t N>
+Type type_of(const std::array<runtime::Vec3<double>, N>&) {
+    return Type::list_of(TypeKind::vec3);
+}
+
+Value value_of(double v) {
+    return number(v);
+}
+Value value_of(bool v) {
+    return boolean(v);
+}
+Value value_of(const runtime::Vec3<double>& v) {
+    return vec3(v.x, v.y, v.z);
+}
+
+template <class Owner, class T>
+Field schema_field(const Owner& defaults, const runtime::Field<Owner, T>& f) {
+    Field result{.name = f.name,
+                 .type = type_of(T{}),
+                 .required = f.required,
+                 .limits = limits_of(f.rule),
+                 .doc = f.doc};
+    if constexpr (requires { value_of(T{}); }) {
+        if (!f.required && f.present == nullptr) {
+            result.default_value = value_of(defaults.*f.member);
+        }
+    }
+    return result;
+}
+
+void add_shape_fields(Constructor& row) {
+    row.fields.push_back(
+        {.name = "material", .type = TypeKind::material, .doc = "else that of the nearest enclosing thing"});
+    row.fields.push_back(
+        {.name = "transform", .type = TypeKind::transform, .doc = "from the shape's own space outwards"});
+    row.fields.push_back({.name = "name", .type = TypeKind::string, .doc = "its part of the object's path"});
+}
+
+template <class Shape>
+void add_shape(std::vector<Constructor>& rows) {
+    if constexpr (requires { Shape::fields(); }) {
+        Constructor row{.name = Shape::name, .type = TypeKind::shape};
+        std::apply([&](const auto&... f) { (row.fields.push_back(schema_field(Shape{}, f)), ...); },
+                   Shape::fields());
+        add_shape_fields(row);
+        rows.push_back(std::move(row));
+    }
+}
+
+template <class... All>
+void add_shapes(std::vector<Constructor>& rows, runtime::TypeList<All...>) {
+    (add_shape<All>(rows), ...);
+}
+
+// ---- everything else ------------------------------------------------------------------------------------
+
+Field unsupported(std::string_view name, Type type) {
+    return {.name = name, .type = std::move(type), .supported = false, .doc = "not supported yet"};
+}
+
+Constructor mesh() {
+    Constructor row{.name = "mesh", .type = TypeKind::shape, .doc = "the triangles of a Wavefront OBJ file"};
+    row.fields = {
+        {.name = "file", .type = TypeKind::string, .required = true, .asset = true, .doc = "Wavefront OBJ"},
+        {.name = "normals",
+         .type = TypeKind::string,
+         .default_value = text("file"),
+         .choices = {"file", "smooth", "flat"},
+         .doc = "the file's (flat where it has none), averaged at the vertices, or one per face"},
+        unsupported("uv", TypeKind::boolean),
+    };
+    add_shape_fields(row);
+    return row;
+}
+
+Constructor group() {
+    Constructor row{.name = "group",
+                    .type = TypeKind::shape,
+                    .takes_children = true,
+                    .doc = "shapes that share a transform and a material"};
+    add_shape_fields(row);
+    return row;
+}
+
+Field color(std::string_view name, std::optional<Value> value, std::string_view doc, bool per_point = false) {
+    return {.name = name,
+            .type = TypeKind::color,
+            .default_value = std::move(value),
+            .per_point = per_point,
+            .limits = non_negative,
+            .doc = doc};
+}
+
+Constructor phong() {
+    return {.name = "phong",
+            .type = TypeKind::material,
+            .fields = {color("diffuse", grey(0.8), "part of the light that is scattered", true),
+                       color("ambient", std::nullopt, "of the ambient light; else the diffuse value", true),
+                       color("specular", grey(0), "of the highlight", true),
+                       {.name = "shininess",
+                        .type = TypeKind::number,
+                        .default_value = number(32),
+                        .per_point = true,
+                        .limits = non_negative,
+                        .doc = "exponent of the highlight"},
+                       color("emission", grey(0), "light that the surface gives off", true),
+                       color("reflect", grey(0), "of the mirrored ray", true),
+                       unsupported("transmit", TypeKind::color),
+                       unsupported("ior", TypeKind::number),
+                       unsupported("opacity", TypeKind::number),
+                       unsupported("bump", Type::function({TypeKind::surface}, TypeKind::number))},
+            .doc = "Phong illumination with the halfway vector"};
+}
+
+Constructor two_sided() {
+    return {.name = "two_sided",
+            .type = TypeKind::material,
+            .fields = {{.name = "front",
+                        .type = TypeKind::material,
+                        .required = true,
+                        .doc = "seen from the side that the normal points to"},
+                       {.name = "back",
+                        .type = TypeKind::material,
+                        .required = true,
+                        .doc = "seen from the other side"}},
+            .doc = "a material for each side"};
+}
+
+void add_light_fields(Constructor& row) {
+    row.fields.push_back(color("color", grey(1), "intensity, for the diffuse and the specular term"));
+    row.fields.push_back(
+        color("specular", std::nullopt, "intensity for the specular term, where it differs"));
+    row.fields.push_back({.name = "enabled",
+                          .type = TypeKind::boolean,
+                          .default_value = boolean(true),
+                          .doc = "off: left out"});
+}
+
+Constructor point_light() {
+    Constructor row{
+        .name = "point_light",
+        .type = TypeKind::light,
+        .fields = {
+            {.name = "position", .type = TypeKind::vec3, .default_value = vec3(0, 0, 0), .doc = "place"},
+            {.name = "attenuation",
+             .type = TypeKind::vec3,
+             .default_value = vec3(1, 0, 0),
+             .limits = non_negative,
+             .doc = "(kc, kl, kq): at distance d the light is divided by kc + kl d + kq d^2"}}};
+    add_light_fields(row);
+    row.fields.push_back(unsupported("power", TypeKind::number));
+    return row;
+}
+
+Constructor directional_light() {
+    const Limits direction = limits_of(runtime::Rule::nonzero_vector);
+    Constructor row{.name = "directional_light",
+                    .type = TypeKind::light,
+                    .fields = {{.name = "direction",
+                                .type = TypeKind::vec3,
+                                .limits = direction,
+                                .doc = "the way the light travels"},
+                               {.name = "towards",
+                                .type = TypeKind::vec3,
+                                .limits = direction,
+                                .doc = "or: the way to the source"}}};
+    add_light_fields(row);
+    return row;
+}
+
+void add_camera_fields(Constructor& row) {
+    row.fields.push_back(
+        {.name = "eye", .type = TypeKind::vec3, .default_value = vec3(0, 0, 5), .doc = "place"});
+    row.fields.push_back(
+        {.name = "target", .type = TypeKind::vec3, .default_value = vec3(0, 0, 0), .doc = "point looked at"});
+    row.fields.push_back({.name = "up",
+                          .type = TypeKind::vec3,
+                          .default_value = vec3(0, 1, 0),
+                          .limits = limits_of(runtime::Rule::nonzero_vector),
+                          .doc = "drawn upwards"});
+    row.fields.push_back({.name = "near",
+                          .type = TypeKind::number,
+                          .default_value = number(0.1),
+                          .limits = positive("it is greater than 0"),
+                          .doc = "nearest distance (raster)"});
+    row.fields.push_back({.name = "far",
+                          .type = TypeKind::number,
+                          .default_value = number(1000),
+                          .limits = positive("it is greater than 0"),
+                          .doc = "farthest distance (raster)"});
+    row.fields.push_back({.name = "shift",
+                          .type = TypeKind::vec2,
+                          .default_value = vec2(0, 0),
+                          .doc = "of the window, in window heights"});
+}
+
+Constructor perspective_camera() {
+    Constructor row{.name = "perspective_camera", .type = TypeKind::camera};
+    row.fields.push_back(
+        {.name = "fov_y",
+         .type = TypeKind::angle,
+         .default_value = angle_degrees(45),
+         .limits = {.min = 0, .max = pi, .min_excluded = true, .rule = "it lies between 0 and 180deg"},
+         .doc = "angle between the picture's lower and upper edge"});
+    add_camera_fields(row);
+    row.fields.push_back(unsupported("aperture", TypeKind::number));
+    row.fields.push_back(unsupported("focus", TypeKind::number));
+    return row;
+}
+
+Constructor orthographic_camera() {
+    Constructor row{.name = "orthographic_camera", .type = TypeKind::camera};
+    row.fields.push_back({.name = "height",
+                          .type = TypeKind::number,
+                          .default_value = number(2),
+                          .limits = positive("a height is greater than 0"),
+                          .doc = "full height of the window"});
+    add_camera_fields(row);
+    return row;
+}
+
+Constructor world() {
+    return {.name = "world",
+            .type = TypeKind::setting,
+            .fields = {color("ambient", grey(0.1), "light that comes from everywhere (Ia)"),
+                       color("background", grey(0), "where a ray meets nothing"),
+                       {.name = "unit",
+                        .type = TypeKind::string,
+                        .default_value = text("m"),
+                        .choices = {"mm", "cm", "m", "km", "inch"},
+                        .doc = "what 1 stands for, for lengths with a suffix"},
+                       unsupported("observer", TypeKind::string),
+                       unsupported("illuminant", TypeKind::string)}};
+}
+
+Constructor render() {
+    return {
+        .name = "render",
+        .type = TypeKind::setting,
+        .fields = {{.name = "file",
+                    .type = TypeKind::string,
+                    .doc = "a name for the picture; `-o` decides where it goes"},
+                   {.name = "size",
+                    .type = TypeKind::vec2,
+                    .default_value = vec2(800, 600),
+                    .limits = {.min = 1,
+                               .max = 65536,
+                               .integer = true,
+                               .rule = "a size is a whole number from 1 to 65536"},
+                    .doc = "(width, height) in pixels"},
+                   {.name = "camera", .type = TypeKind::string, .doc = "its name, where there are several"},
+                   {.name = "method", .type = TypeKind::method, .doc = "ray { } or raster { }; else ray { }"},
+                   unsupported("frames", TypeKind::range),
+                   {.name = "sampling",
+                    .type = TypeKind::string,
+                    .default_value = text("center"),
+                    .choices = {"center", "corner"},
+                    .doc = "which point of a pixel is sampled"}}};
+}
+
+Field samples() {
+    return {.name = "samples",
+            .type = TypeKind::number,
+            .default_value = number(1),
+            .limits = {.min = 1,
+                       .max = 4096,
+                       .integer = true,
+                       .square = true,
+                       .rule = "samples per pixel are a square number from 1 to 4096"},
+            .doc = "per pixel, on a regular grid"};
+}
+
+Constructor ray() {
+    return {.name = "ray",
+            .type = TypeKind::method,
+            .fields = {{.name = "depth",
+                        .type = TypeKind::number,
+                        .default_value = number(5),
+                        .limits = {.min = 0,
+                                   .max = 200,
+                                   .integer = true,
+                                   .rule = "a depth is a whole number from 0 to 200"},
+                        .doc = "mirror bounces; 0: none"},
+                       samples(),
+                       {.name = "shadows",
+                        .type = TypeKind::boolean,
+                        .default_value = boolean(true),
+                        .doc = "shadow feelers"},
+                       {.name = "filter",
+                        .type = TypeKind::string,
+                        .default_value = text("box"),
+                        .choices = {"box"},
+                        .doc = "how the samples of a pixel are weighted"},
+                       unsupported("adaptive", TypeKind::number)}};
+}
+
+Constructor raster() {
+    return {.name = "raster",
+            .type = TypeKind::method,
+            .fields = {{.name = "shading",
+                        .type = TypeKind::string,
+                        .default_value = text("phong"),
+                        .choices = {"flat", "gouraud", "phong", "wireframe", "hidden_line"},
+                        .doc = "where colours are computed"},
+                       samples(),
+                       {.name = "clip",
+                        .type = TypeKind::boolean,
+                        .default_value = boolean(true),
+                        .doc = "against the view volume"},
+                       {.name = "cull",
+                        .type = TypeKind::string,
+                        .default_value = text("none"),
+                        .choices = {"none", "back"},
+                        .doc = "faces left out"},
+                       {.name = "tessellation",
+                        .type = TypeKind::number,
+                        .default_value = number(0.001),
+                        .limits = positive("it is greater than 0"),
+                        .doc = "tolerance, of the picture's height"}}};
+}
+
+// The language's other words: known, so that a scene that uses one is told the truth.
+void add_unsupported(std::vector<Constructor>& rows) {
+    const std::pair<std::string_view, TypeKind> words[] = {
+        {"cone", TypeKind::shape},       {"torus", TypeKind::shape},
+        {"quadric", TypeKind::shape},    {"heightfield", TypeKind::shape},
+        {"implicit", TypeKind::shape},   {"polyline", TypeKind::shape},
+        {"union", TypeKind::shape},      {"intersection", TypeKind::shape},
+        {"difference", TypeKind::shape}, {"spherical_camera", TypeKind::camera},
+        {"spot_light", TypeKind::light}, {"rectangle_light", TypeKind::light},
+        {"sky_light", TypeKind::light},  {"glass", TypeKind::material},
+        {"pbr", TypeKind::material},     {"image", TypeKind::image}};
+    for (const auto& [name, type] : words) {
+        rows.push_back({.name = name, .type = type, .supported = false, .doc = "not supported yet"});
+    }
+}
+
+lang::Schema make_schema() {
+    lang::Schema schema;
+    add_shapes(schema.constructors, runtime::Shapes<double>{});
+    for (auto make : {mesh, group, phong, two_sided, point_light, directional_light, perspective_camera,
+                      orthographic_camera, world, render, ray, raster}) {
+        schema.constructors.push_back(make());
+    }
+    add_unsupported(schema.constructors);
+    return schema;
+}
+
+} // namespace
+
+const lang::Schema& scene_schema() {
+    static const lang::Schema schema = make_schema();
+    return schema;
+}
+
+} // namespace scc::compiler

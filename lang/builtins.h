@@ -1,0 +1,44 @@
+#pragma once
+
+#include "lang/run_report.h"
+#include "lang/scalar_math.h"
+#include "lang/source.h"
+#include "lang/type.h"
+#include "lang/value.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace scc::lang {
+
+/// What a built-in function may use while it runs.
+struct BuiltinRun {
+    ScalarMath& math;
+    RunReport& report;
+    Span span; ///< of the call
+};
+
+struct Overload {
+    std::vector<Type> parameters;
+    Type result;
+    Value (*run)(BuiltinRun& run, const std::vector<Value>& arguments);
+    bool needs_constants = false; ///< cannot be part of a per-point function
+};
+
+/// A function of the language with one result per list of parameter types. `map filter sum len` are typed by
+/// their arguments and live in the checker.
+struct Builtin {
+    std::string_view name;
+    std::vector<Overload> overloads;
+};
+
+const Builtin* find_builtin(std::string_view name);
+/// Every name that is a function to an author: the built-in ones, the list functions, `assert` and `print`.
+const std::vector<std::string_view>& function_names();
+bool is_list_function(std::string_view name);
+bool is_statement(std::string_view name);
+/// Functions and values that the language names but this version does not have.
+bool is_unsupported_name(std::string_view name);
+
+} // namespace scc::lang

@@ -1,0 +1,161 @@
+#include "lang/checker.h"
+#include "lang/wording.h"
+
+#include <algorithm>
+
+namespace scc::lang {
+namespace {
+
+bool is_scene_item(TypeKind kind) {
+    return kind == TypeKind::shape || kind == TypeKind::light || kind == TypeKind::camera ||
+           kind == TypeKind::setting;
+}
+
+const Type& innermost(const Type& type) {
+    return type.kind == TypeKind::list ? innermost(type.args[0]) : type;
+}
+
+} // namespace
+
+Typed Checker::check(const ast::Construct& node, const ast::Expr& expr, const Place& place) {
+    const Constructor* row = schema_.find(node.constructor.text);
+    Fields fields;
+    if (!row) {
+        unknown_constructor(node, place);
+        body(node.body, {nullptr, false, false, false, &fields}, place.unnamed());
+        return {};
+    }
+    if (!row->supported) {
+        not_supported(node.constructor.span, row->name);
+        body(node.body, {nullptr, false, false, false, &fields}, place.unnamed());
+        return {row->type, nullptr};
+    }
+    code::Construct thing{row, body(node.body, {row, false, false, false, &fields}, place.unnamed()),
+                          place.thing_name, node.constructor.span};
+    for (const Field& field : row->fields) {
+        if (field.required && !fields.contains(field.name)) {
+            diagnostics_.report(Diag::missing_field, node.constructor.span, in_code(row->name), field.name);
+        }
+    }
+    return {row->type, make_code(std::move(thing), expr.span)};
+}
+
+void Checker::unknown_constructor(const ast::Construct& node, const Place& place) {
+    const ast::Name& name = node.constructor;
+    const Binding* binding = Names::find(place.scope, name.text);
+    const bool is_function = binding ? binding->kind == Binding::Kind::function
+                                     : find_builtin(name.text) || is_list_function(name.text);
+    if (is_function) {
+        diagnostics_.report(Diag::braces_on_function, name.span, name.text);
+        return;
+    }
+    std::vector<std::string_view> names;
+    for (const Constructor& constructor : schema_.constructors) {
+        names.push_back(constructor.name);
+    }
+    const auto best = nearest(name.text, names);
+    Diagnostic& diagnostic =
+        diagnostics_.report(Diag::unknown_constructor, name.span, name.text, did_you_mean(best));
+    if (best) {
+        diagnostic.suggest(name.span, std::string(*best));
+    }
+}
+
+/// What stands within an unknown or unsupported thing is checked as an expression only.
+void Checker::item(const ast::Field& item, Span, const Into& into) {
+    const Around& around = into.around;
+    if (around.is_file) {
+        diagnostics_.report(Diag::misplaced_field, item.name.span, item.name.text)
+            .suggest({item.name.span.file, item.name.span.begin, item.name.span.begin}, "let ");
+    }
+    const Field* row = around.thing ? around.thing->find(item.name.text) : nullptr;
+    if (row && row->supported) {
+        field_value(item, *row, into);
+        return;
+    }
+    if (row) {
+        not_supported(item.name.span, row->name);
+    } else if (around.thing) {
+        unknown_field(item, *around.thing);
+    }
+    expression(item.value, into.place.unnamed());
+}
+
+void Checker::unknown_field(const ast::Field& item, const Constructor& thing) {
+    std::vector<std::string_view> names;
+    for (const Field& field : thing.fields) {
+        names.push_back(field.name);
+    }
+    const auto best = nearest(item.name.text, names);
+    Diagnostic& diagnostic = diagnostics_.report(Diag::unknown_field, item.name.span, thing.name,
+                                                 item.name.text, did_you_mean(best));
+    if (best) {
+        diagnostic.suggest(item.name.span, std::string(*best));
+    }
+}
+
+void Checker::field_value(const ast::Field& item, const Field& row, const Into& into) {
+    const auto [first, is_first] = into.around.fields->try_emplace(row.name, item.name.span);
+    if (!is_first) {
+        diagnostics_.report(Diag::duplicate_field, item.name.span, row.name)
+            .note(first->second, "it is set here");
+    } else if (into.around.in_loop) {
+        diagnostics_.report(Diag::field_in_loop, item.name.span, row.name);
+    }
+    Typed value = expression(item.value, into.place.unnamed());
+    if (!item.value) {
+        return;
+    }
+    const Type per_point = Type::function({TypeKind::surface}, row.type);
+    if (!row.per_point || !fits(per_point, value.type)) {
+        const bool is_function = row.per_point && value.type.kind == TypeKind::function;
+        expect(in_code(row.name), row.type, value.type, *item.value,
+               is_function ? " or a function `" + to_string(per_point) + "`" : "");
+    }
+    check_choice(*item.value, row);
+    const bool is_unit = into.around.thing->name == "world" && row.name == "unit";
+    if (is_unit && std::find(unit_fields_.begin(), unit_fields_.end(), &item) == unit_fields_.end()) {
+        diagnostics_.report(Diag::unit_not_literal, item.value->span);
+    }
+    into.out.push_back({FieldCode{&row, std::move(value.code), item.name.span}});
+}
+
+/// Choices are checked once more where they are evaluated; here a misspelt one is found in code that does not
+/// run.
+void Checker::check_choice(const ast::Expr& value, const Field& row) {
+    const auto* text = std::get_if<ast::String>(&value.node);
+    if (!text || row.choices.empty() ||
+        std::find(row.choices.begin(), row.choices.end(), text->value) != row.choices.end()) {
+        return;
+    }
+    Diagnostic& diagnostic = diagnostics_.report(Diag::unknown_choice, value.span, row.name,
+                                                 to_string(Value{text->value}), choice_rule(row));
+    if (const auto best = nearest(text->value, row.choices)) {
+        diagnostic.suggest(value.span, to_string(Value{std::string(*best)}));
+    }
+}
+
+bool Checker::child_fits(const Type& type, const Around& around, Span span) {
+    const Type& item = innermost(type);
+    if (item.kind == TypeKind::error) {
+        return true;
+    }
+    if (around.is_file) {
+        if (!is_scene_item(item.kind)) {
+            diagnostics_.report(Diag::unexpected_item, span, "the top of a file",
+                                "shapes, lights, cameras and settings", described(type));
+        }
+        return is_scene_item(item.kind);
+    }
+    if (!around.thing) {
+        return false;
+    }
+    const bool fits_here = around.thing->takes_children && item.kind == TypeKind::shape;
+    if (!fits_here) {
+        diagnostics_.report(Diag::unexpected_item, span, in_code(around.thing->name),
+                            around.thing->takes_children ? "shapes" : "only fields", described(type));
+    }
+    return fits_here;
+}
+
+} // namespace scc::lang

@@ -1,0 +1,185 @@
+#pragma once
+
+#include "lang/ast.h"
+#include "lang/builtins.h"
+#include "lang/check.h"
+#include "lang/code.h"
+#include "lang/diagnostic.h"
+#include "lang/schema.h"
+#include "lang/scope.h"
+#include "lang/source.h"
+#include "lang/stack_guard.h"
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace scc::lang {
+
+/// What the static pass makes of a file; complete only if it reported no error.
+struct CheckedFile {
+    BodyCode body;
+    std::vector<ParamCode> params;
+    std::deque<FunctionCode> functions;
+    std::deque<ast::ExprPtr> given; ///< the syntax of `-D`, which the code refers to as it does to the file's
+};
+
+/// An expression's type and code; the code is null where something was reported.
+struct Typed {
+    Type type;
+    CodePtr code;
+};
+
+/// Where an expression stands.
+struct Place {
+    Scope* scope;
+    Binding* owner;              ///< the definition it belongs to; null: the file's items
+    std::string_view thing_name; ///< for a thing that this expression directly makes
+
+    Place unnamed() const { return {scope, owner, {}}; }
+};
+
+/// The static pass: names, types, fields. Reports everything and never stops; what is wrong gets the error
+/// type.
+class Checker {
+public:
+    Checker(const Schema& schema, SourceSet& sources, Diagnostics& diagnostics,
+            const EvaluationLimits& limits)
+        : schema_(schema), sources_(sources), diagnostics_(diagnostics), limits_(limits),
+          names_(diagnostics) {}
+
+    CheckedFile run(const ast::File& file, const std::vector<Definition>& definitions);
+
+private:
+    using Fields = std::map<std::string_view, Span>;
+    /// The body that items stand in.
+    struct Around {
+        const Constructor* thing = nullptr; ///< null: the file, or an unknown thing
+        bool is_file = false;               ///< in loops and conditions too
+        bool at_top = false;                ///< not in those
+        bool in_loop = false;
+        Fields* fields = nullptr; ///< set so far
+    };
+
+    /// Where the code of an item goes.
+    struct Into {
+        const Around& around;
+        const Place& place;
+        std::vector<ItemCode>& out;
+    };
+
+    // check_items.cpp
+    std::vector<Binding*> declare(const std::vector<ast::Item>& items, const Place& place, bool at_top);
+    Binding& bind(Scope& scope, Binding::Kind kind, const ast::Name& name, Binding* owner);
+    void check_definitions(const std::vector<Binding*>& bindings);
+    std::vector<ItemCode> items(const std::vector<ast::Item>& items, const Around& around,
+                                const Place& place);
+    BodyCode body(const ast::Body& body, const Around& around, const Place& place);
+    BodyCode otherwise(const ast::Item* item, const Around& around, const Place& place);
+    void item(const ast::Import& item, Span span, const Into& into);
+    void item(const ast::Param& item, Span span, const Into& into);
+    void item(const ast::Let& item, Span span, const Into& into);
+    void item(const ast::Function& item, Span span, const Into& into);
+    void item(const ast::For& item, Span span, const Into& into);
+    void item(const ast::If& item, Span span, const Into& into);
+    void item(const ast::Block& item, Span span, const Into& into);
+    void item(const ast::Field& item, Span span, const Into& into);
+    void item(const ast::Child& item, Span span, const Into& into);
+    bool statement(const ast::Child& item, const Into& into);
+    void close(Scope& scope, std::vector<CodePtr>& cells);
+
+    // check_things.cpp
+    Typed check(const ast::Construct& node, const ast::Expr& expr, const Place& place);
+    void field_value(const ast::Field& item, const Field& row, const Into& into);
+    void unknown_constructor(const ast::Construct& node, const Place& place);
+    void unknown_field(const ast::Field& item, const Constructor& thing);
+    void check_choice(const ast::Expr& value, const Field& row);
+    bool child_fits(const Type& type, const Around& around, Span span);
+
+    // check_definitions.cpp
+    void ensure(Binding& binding);
+    void ensure_let(Binding& binding);
+    void ensure_signature(Binding& binding);
+    void ensure_function(Binding& binding);
+    Typed reference(Binding& binding, Span span, const Place& place);
+    Typed check(const ast::Lambda& node, const ast::Expr& expr, const Place& place);
+    std::vector<Type> formal_types(const std::vector<ast::Formal>& formals);
+    void defaults(const std::vector<ast::Formal>& formals, const std::vector<Type>& types, const Place& place,
+                  FunctionCode& function);
+    Scope& bind_formals(const std::vector<ast::Formal>& formals, const std::vector<Type>& types, Scope* outer,
+                        Binding* owner);
+    Type type(const ast::TypeExpr* written);
+    Type bounded(Type type, Span span);
+
+    // check_params.cpp
+    void param(Binding& binding);
+    ParamCode param_code(Binding& binding);
+    void param_range(const ast::Param& item, const Type& type, const Place& place, ParamCode& code);
+    void definitions(const std::vector<Definition>& definitions, std::vector<ParamCode>& params);
+    CodePtr given_value(const Definition& definition, const ParamCode& param);
+    void find_unit(const ast::File& file);
+
+    // check_expressions.cpp
+    Typed expression(const ast::ExprPtr& expr, const Place& place);
+    Typed check(const ast::ErrorExpr& node, const ast::Expr& expr, const Place& place);
+    Typed check(const ast::Number& node, const ast::Expr& expr, const Place& place);
+    Typed check(const ast::String& node, const ast::Expr& expr, const Place& place);
+    Typed check(const ast::HexColor& node, const ast::Expr& expr, const Place& place);
+    Typed check(const ast::Bool& node, const ast::Expr& expr, const Place& place);
+    Typed check(const ast::NameRef& node, const ast::Expr& expr, const Place& place);
+    Typed check(const ast::Tuple& node, const ast::Expr& expr, const Place& place);
+    Typed check(const ast::List& node, const ast::Expr& expr, const Place& place);
+    Typed check(const ast::Comprehension& node, const ast::Expr& expr, const Place& place);
+    Typed check(const ast::Conditional& node, const ast::Expr& expr, const Place& place);
+    Typed check(const ast::Unary& node, const ast::Expr& expr, const Place& place);
+    Typed check(const ast::Binary& node, const ast::Expr& expr, const Place& place);
+    Typed check(const ast::Member& node, const ast::Expr& expr, const Place& place);
+    Typed check(const ast::Index& node, const ast::Expr& expr, const Place& place);
+    Typed unknown_name(const ast::NameRef& node, Span span, const Place& place);
+    Type element_of(const Type& range, Span span);
+
+    // check_calls.cpp
+    Typed check(const ast::Call& node, const ast::Expr& expr, const Place& place);
+    Typed named_call(const ast::Call& node, std::string_view name, Span span, const Place& place);
+    Typed function_call(const ast::Call& node, Binding& binding, Span span, const Place& place);
+    Typed value_call(const ast::Call& node, Span span, const Place& place);
+    Typed builtin_call(const ast::Call& node, const Builtin& builtin, Span span, const Place& place);
+    Typed list_call(const ast::Call& node, std::string_view name, Span span, const Place& place);
+    Typed constructor_call(std::string_view name, Span name_span, Span span);
+    static constexpr std::size_t no_parameter = static_cast<std::size_t>(-1);
+    std::size_t parameter_index(const std::vector<ast::Formal>& formals, const ast::Name& name,
+                                const Binding& function);
+    std::vector<Typed> arguments(const ast::Call& node, std::string_view subject, const Place& place);
+    bool argument_count(std::size_t wanted, std::string_view subject, const ast::Call& node, Span span);
+    void no_overload(const ast::Call& node, const Builtin& builtin, const std::vector<Typed>& values,
+                     Span span);
+    void suspect_degrees(const ast::Call& node, std::string_view name);
+
+    // check_types.cpp
+    /// Reports a value of another type; gives whether it fits.
+    bool expect(std::string_view subject, const Type& wanted, const Type& actual, const ast::Expr& value,
+                std::string_view alternative = {});
+    void not_supported(Span span, std::string_view what);
+    /// What the author may have meant by an unknown name; given up after many of them, since each costs a
+    /// search.
+    std::optional<std::string_view> meant_name(std::string_view name, const Place& place,
+                                               std::vector<std::string_view> others);
+
+    const Schema& schema_;
+    SourceSet& sources_;
+    Diagnostics& diagnostics_;
+    EvaluationLimits limits_;
+    Names names_;
+    std::deque<FunctionCode> functions_;
+    std::deque<ast::ExprPtr> given_;
+    ast::Unit world_unit_ = ast::Unit::m;
+    std::vector<const ast::Field*> unit_fields_; ///< those that find_unit could read
+    int searches_left_ = 100;
+    StackGuard stack_;
+};
+
+} // namespace scc::lang

@@ -1,0 +1,89 @@
+#include "lang/scope.h"
+
+#include <utility>
+
+namespace scc::lang {
+
+Scope& Names::add_scope(Scope* parent) {
+    scopes_.push_back({parent, {}, {}});
+    return scopes_.back();
+}
+
+Binding& Names::bind(Scope& scope, Binding::Kind kind, std::string_view name, Span span, Binding* owner) {
+    Binding& binding = bindings_.emplace_back();
+    binding.kind = kind;
+    binding.name = name;
+    binding.span = span;
+    binding.scope = &scope;
+    binding.owner = owner;
+    if (kind != Binding::Kind::function && kind != Binding::Kind::alias) {
+        binding.cell = static_cast<std::uint32_t>(scope.cells.size());
+        scope.cells.push_back(&binding);
+    }
+    const auto [first, inserted] = scope.names.try_emplace(name, &binding);
+    if (!inserted) {
+        diagnostics_.report(Diag::duplicate_name, span, name)
+            .note(first->second->span, "the first one is here");
+        binding.used = true;
+    }
+    return binding;
+}
+
+Binding* Names::find(Scope* scope, std::string_view name) {
+    for (; scope; scope = scope->parent) {
+        if (const auto found = scope->names.find(name); found != scope->names.end()) {
+            return found->second;
+        }
+    }
+    return nullptr;
+}
+
+std::vector<std::string_view> Names::visible(const Scope* scope) {
+    std::vector<std::string_view> names;
+    for (; scope; scope = scope->parent) {
+        for (const auto& [name, binding] : scope->names) {
+            names.push_back(name);
+        }
+    }
+    return names;
+}
+
+std::uint32_t Names::depth(const Scope* from, const Scope* to) {
+    std::uint32_t frames = 0;
+    for (; from != to; from = from->parent) {
+        ++frames;
+    }
+    return frames;
+}
+
+void Names::note_use(Binding& target, Span span, Binding* user) {
+    target.used = true;
+    if (target.kind == Binding::Kind::variable || target.kind == Binding::Kind::alias) {
+        return;
+    }
+    const auto stands_within = [&target](const Binding* outer) {
+        const Binding* b = target.owner;
+        while (b && b != outer) {
+            b = b->owner;
+        }
+        return b == outer;
+    };
+    for (Binding* b = user; b && !stands_within(b); b = b->owner) {
+        b->uses.push_back({&target, span});
+    }
+}
+
+void Names::warn_unused(const Scope& scope) {
+    for (const Binding* binding : scope.cells) {
+        if (binding->used || binding->name.starts_with('_')) {
+            continue;
+        }
+        if (binding->kind == Binding::Kind::let) {
+            diagnostics_.report(Diag::unused_let, binding->span, binding->name);
+        } else if (binding->kind == Binding::Kind::param) {
+            diagnostics_.report(Diag::unused_param, binding->span, binding->name);
+        }
+    }
+}
+
+} // namespace scc::lang

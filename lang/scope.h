@@ -1,0 +1,87 @@
+#pragma once
+
+#include "lang/ast.h"
+#include "lang/code.h"
+#include "lang/diagnostic.h"
+#include "lang/source.h"
+#include "lang/type.h"
+
+#include <cstdint>
+#include <deque>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace scc::lang {
+
+struct Scope;
+struct Binding;
+
+/// One mention of a name in the definition of another.
+struct Use {
+    Binding* target;
+    Span span;
+};
+
+/// A name with what it stands for. Its type is found when it is first needed, so definitions may stand in any
+/// order.
+struct Binding {
+    enum class Kind { let, param, function, variable, alias };
+    enum class State { unchecked, checking, checked };
+
+    Kind kind = Kind::variable;
+    std::string_view name;
+    Span span;
+    Scope* scope = nullptr;
+    Binding* owner = nullptr; ///< the definition within which this one stands
+    State state = State::unchecked;
+    Type type; ///< of a function with its parameters; known early if the result type is written
+    bool type_known = false;
+    bool used = false;
+    bool needs_result_type = false; ///< a function that was called before its result was known
+    std::uint32_t cell = 0; ///< of the scope's frame; functions have none
+    CodePtr code;           ///< what the cell is computed from
+    FunctionCode* function_code = nullptr;
+    const ast::Let* let = nullptr;
+    const ast::Param* param = nullptr;
+    const ast::Function* function = nullptr;
+    std::vector<Use> uses; ///< of definitions outside of this one
+};
+
+/// The names of one body, function or loop; one frame at run time.
+struct Scope {
+    Scope* parent = nullptr;
+    std::unordered_map<std::string_view, Binding*> names;
+    std::vector<Binding*> cells;
+};
+
+/// All scopes and bindings of a file.
+class Names {
+public:
+    explicit Names(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+    Scope& add_scope(Scope* parent);
+    /// A second binding of a name in one scope is reported; the name keeps its first meaning.
+    Binding& bind(Scope& scope, Binding::Kind kind, std::string_view name, Span span, Binding* owner);
+
+    static Binding* find(Scope* scope, std::string_view name);
+    static std::vector<std::string_view> visible(const Scope* scope);
+    /// Frames from `from` out to `to`.
+    static std::uint32_t depth(const Scope* from, const Scope* to);
+    /// Remembers that the definition `user` (null: the file's items) mentions `target`.
+    static void note_use(Binding& target, Span span, Binding* user);
+
+    void warn_unused(const Scope& scope);
+    /// Reports every let or param whose value needs itself, by way of functions too, and functions whose result type
+    /// cannot be found because they call themselves.
+    void report_cycles();
+
+private:
+    void report_cycle(Binding* first, const std::vector<Binding*>& members);
+
+    std::deque<Scope> scopes_;
+    std::deque<Binding> bindings_;
+    Diagnostics& diagnostics_;
+};
+
+} // namespace scc::lang

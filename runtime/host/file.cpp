@@ -1,0 +1,109 @@
+#include "runtime/host/file.h"
+
+#include <fmt/core.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace scc::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const std::string& path, int error) {
+    throw FileError(fmt::format("cannot write `{}`: {}", path, std::strerror(error)));
+}
+
+class Descriptor {
+public:
+    explicit Descriptor(int fd) : fd_(fd) {}
+    ~Descriptor() {
+        if (fd_ >= 0)
+            ::close(fd_);
+    }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+
+    int get() const { return fd_; }
+    /// Closing may be where a network or quota error shows.
+    bool close() { return ::close(std::exchange(fd_, -1)) == 0; }
+
+private:
+    int fd_;
+};
+
+class TemporaryName {
+public:
+    explicit TemporaryName(fs::path path) : path_(std::move(path)) {}
+    ~TemporaryName() {
+        if (!path_.empty())
+            ::unlink(path_.c_str());
+    }
+    TemporaryName(const TemporaryName&) = delete;
+    TemporaryName& operator=(const TemporaryName&) = delete;
+
+    void release() { path_.clear(); }
+
+private:
+    fs::path path_;
+};
+
+void write_all(Descriptor& file, std::string_view bytes, const std::string& path) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(file.get(), bytes.data(), bytes.size());
+        if (written < 0 && errno != EINTR)
+            fail(path, errno);
+        if (written > 0)
+            bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+    if (!file.close())
+        fail(path, errno);
+}
+
+void write_in_place(const std::string& path, std::string_view bytes) {
+    Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+    if (file.get() < 0)
+        fail(path, errno);
+    write_all(file, bytes, path);
+}
+
+/// Where the bytes have to go: the end of a chain of symbolic links.
+fs::path target_of(const std::string& path) {
+    std::error_code none;
+    if (!fs::is_symlink(path, none))
+        return path;
+    const fs::path target = fs::weakly_canonical(path, none);
+    return none ? fs::path(path) : target;
+}
+
+} // namespace
+
+void replace_file(const std::string& path, std::string_view bytes) {
+    const fs::path target = target_of(path);
+    std::error_code none;
+    const fs::file_status status = fs::status(target, none);
+    if (fs::is_directory(status))
+        fail(path, EISDIR);
+    if (fs::exists(status) && !fs::is_regular_file(status))
+        return write_in_place(path, bytes);
+
+    static std::atomic<unsigned> counter{0};
+    // Not derived from the file's own name, which may already be as long as the file system allows.
+    const fs::path name = target.parent_path() / fmt::format(".scc-{}-{}.tmp", ::getpid(), ++counter);
+    Descriptor file(::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    if (file.get() < 0)
+        fail(path, errno);
+    TemporaryName temporary(name);
+    write_all(file, bytes, path);
+    if (::rename(name.c_str(), target.c_str()) != 0)
+        fail(path, errno);
+    temporary.release();
+}
+
+} // namespace scc::host

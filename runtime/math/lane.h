@@ -1,0 +1,161 @@
+#pragma once
+
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+/// The vocabulary in which every formula is written. A lane type L is float, double, long double or a Pack of them
+/// (pack.h); comparisons give a MaskOf<L>, which is combined by & | ! and used by choose. A formula for one lane has no
+/// branch on data, except "nobody needs the rest": if (none(mask)) return.
+namespace scc::runtime {
+
+template <class L>
+struct LaneTraits;
+
+template <std::floating_point T>
+struct LaneTraits<T> {
+    using Real = T;
+    using Mask = bool;
+    using Index = std::uint32_t;
+};
+
+template <class L>
+using RealOf = typename LaneTraits<L>::Real;
+template <class L>
+using MaskOf = typename LaneTraits<L>::Mask;
+template <class L>
+using IndexOf = typename LaneTraits<L>::Index; ///< a small whole number per lane
+
+template <class L>
+concept Lane = requires { typename LaneTraits<L>::Real; };
+
+template <Lane L>
+constexpr L infinity() {
+    return L(std::numeric_limits<RealOf<L>>::infinity());
+}
+
+constexpr bool any(bool mask) { return mask; }
+constexpr bool all(bool mask) { return mask; }
+constexpr bool none(bool mask) { return !mask; }
+
+template <class T>
+    requires std::is_arithmetic_v<T>
+constexpr T choose(bool mask, T where_true, T where_false) {
+    return mask ? where_true : where_false;
+}
+
+/// 1 or 0. A float converts to every lane type without loss; assign it to one before calculating on.
+constexpr float truth(bool mask) { return mask ? 1.0F : 0.0F; }
+
+/// b where b < a, else a: a NaN in b is ignored, a NaN in a stays.
+template <Lane L>
+constexpr L minimum(L a, std::type_identity_t<L> b) {
+    return choose(b < a, b, a);
+}
+/// b where b > a, else a: a NaN in b is ignored, a NaN in a stays.
+template <Lane L>
+constexpr L maximum(L a, std::type_identity_t<L> b) {
+    return choose(b > a, b, a);
+}
+
+template <std::floating_point T>
+constexpr T absolute(T x) {
+    // Not x < 0 ? -x : x, which keeps the sign of -0. The builtin is a constant expression in both compilers.
+    if constexpr (std::is_same_v<T, float>) {
+        return __builtin_fabsf(x);
+    } else if constexpr (std::is_same_v<T, double>) {
+        return __builtin_fabs(x);
+    } else {
+        return __builtin_fabsl(x);
+    }
+}
+template <std::floating_point T>
+T square_root(T x) {
+    return std::sqrt(x);
+}
+template <std::floating_point T>
+T round_down(T x) {
+    return std::floor(x);
+}
+template <std::floating_point T>
+T round_up(T x) {
+    return std::ceil(x);
+}
+
+/// a - b floor(a / b): takes the sign of b; NaN where b = 0.
+template <Lane L>
+L floored_mod(L a, std::type_identity_t<L> b) {
+    return a - b * round_down(a / b);
+}
+
+/// a b - c d, for float evaluated in double, where the products are exact and the sign is therefore right.
+template <std::floating_point T>
+constexpr T difference_of_products(T a, T b, T c, T d) {
+    if constexpr (std::is_same_v<T, float>) {
+        return static_cast<float>(double(a) * double(b) - double(c) * double(d));
+    } else {
+        return a * b - c * d;
+    }
+}
+
+/// x, of which the compiler knows nothing any more. Compilers fold elementary functions of known arguments with other
+/// rounding than the library's (and turn pow(x, 2) into x * x, sin and cos into one call): without this, a program
+/// compiled for one scene would draw other bits than the generic one.
+template <std::floating_point T>
+T opaque(T x) {
+#if defined(__x86_64__)
+    if constexpr (sizeof(T) <= sizeof(double)) {
+        asm volatile("" : "+x"(x));
+        return x;
+    }
+#elif defined(__aarch64__)
+    if constexpr (sizeof(T) <= sizeof(double)) {
+        asm volatile("" : "+w"(x));
+        return x;
+    }
+#endif
+    asm volatile("" : "+m"(x));
+    return x;
+}
+
+template <std::floating_point T>
+T power(T x, std::type_identity_t<T> y) {
+    return std::pow(opaque(x), opaque(y));
+}
+template <std::floating_point T>
+T sine(T x) {
+    return std::sin(opaque(x));
+}
+template <std::floating_point T>
+T cosine(T x) {
+    return std::cos(opaque(x));
+}
+template <std::floating_point T>
+T tangent(T x) {
+    return std::tan(opaque(x));
+}
+template <std::floating_point T>
+T arc_sine(T x) {
+    return std::asin(opaque(x));
+}
+template <std::floating_point T>
+T arc_cosine(T x) {
+    return std::acos(opaque(x));
+}
+/// The angle of the point (x, y).
+template <std::floating_point T>
+T arc_tangent(T y, std::type_identity_t<T> x) {
+    return std::atan2(opaque(y), opaque(x));
+}
+template <std::floating_point T>
+T exponential(T x) {
+    return std::exp(opaque(x));
+}
+template <std::floating_point T>
+T logarithm(T x) {
+    return std::log(opaque(x));
+}
+
+} // namespace scc::runtime

@@ -1,0 +1,140 @@
+#include "validation/budget.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace scc::validation {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double base_rays = 640.0 * 480.0;
+constexpr double above_1e3_threshold = 1e-3;
+
+/// Pixel counts per 640 x 480 primary rays; negative: no such limit.
+struct Row {
+    const char* renderer;
+    double max_error;
+    int outliers;
+    double max_away_from_edges;
+    int above_1e3;
+    bool follows_exposure; ///< the file has steps, which an exposure makes coarser
+    const char* reason;
+};
+
+constexpr std::array rows{
+    Row{"native", 0, 0, -1, -1, false,
+        "the specialised program and the generic renderer do the same arithmetic: every value is identical"},
+    Row{"pov", 2e-5, 5, -1, -1, true,
+        "16-bit file: rounding of 0.5/65535 = 7.7e-6, doubled by what it adds to; edges agree too, since the "
+        "sample "
+        "positions are the same; outliers: chains of mirrors or glass that end on an edge (0 to 4 per "
+        "image)"},
+    Row{"blender", infinity, 0, 1e-4, 20, false,
+        "single precision: 2e-5 to 4e-5 measured away from edges; curved surfaces are meshes of 256 "
+        "segments, so "
+        "that a few pixels on silhouettes and shadow edges fall on the other side (2 to 3 per image, more "
+        "with "
+        "mirrors)"},
+};
+
+std::size_t scaled(int count, double rays) {
+    return static_cast<std::size_t>(std::ceil(count * std::max(rays / base_rays, 1.0)));
+}
+
+std::string at(const Place& place) {
+    return fmt::format("at pixel ({}, {})", place.x, place.y);
+}
+
+} // namespace
+
+std::optional<Budget> budget_for(const std::string& renderer, int width, int height, int samples_per_axis,
+                                 double exposure) {
+    const auto row =
+        std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.renderer == renderer; });
+    if (row == rows.end())
+        return std::nullopt;
+    const double rays = static_cast<double>(width) * height * samples_per_axis * samples_per_axis;
+    Budget budget;
+    budget.renderer = row->renderer;
+    budget.max_error = row->follows_exposure ? row->max_error / exposure : row->max_error;
+    budget.outliers = scaled(row->outliers, rays);
+    if (row->max_away_from_edges >= 0)
+        budget.max_away_from_edges = row->max_away_from_edges;
+    if (row->above_1e3 >= 0)
+        budget.above_1e3 = scaled(row->above_1e3, rays);
+    budget.reason = row->reason;
+    return budget;
+}
+
+nlohmann::ordered_json to_json(const Budget& budget) {
+    nlohmann::ordered_json json{{"renderer", budget.renderer}};
+    if (std::isfinite(budget.max_error)) {
+        json["max_error"] = budget.max_error;
+        json["outliers"] = budget.outliers;
+    }
+    if (budget.max_away_from_edges)
+        json["max_away_from_edges"] = *budget.max_away_from_edges;
+    if (budget.above_1e3)
+        json["above_1e-3"] = *budget.above_1e3;
+    json["reason"] = budget.reason;
+    return json;
+}
+
+std::vector<double> thresholds_for(const Budget& budget) {
+    std::vector<double> thresholds = CompareOptions{}.thresholds;
+    if (std::isfinite(budget.max_error) &&
+        std::find(thresholds.begin(), thresholds.end(), budget.max_error) == thresholds.end())
+        thresholds.push_back(budget.max_error);
+    std::sort(thresholds.begin(), thresholds.end());
+    return thresholds;
+}
+
+Judgement judge(const Budget& budget, const Metrics& metrics) {
+    std::vector<std::string> broken;
+    if (metrics.non_finite_reference + metrics.non_finite_other > 0)
+        broken.push_back(fmt::format("{} values of the reference and {} of the other image are not finite",
+                                     metrics.non_finite_reference, metrics.non_finite_other));
+    if (std::isfinite(budget.max_error)) {
+        const std::size_t count = metrics.all.above(budget.max_error);
+        if (count > budget.outliers)
+            broken.push_back(fmt::format(
+                "{} pixels differ by more than {:.3g}, {} may; the largest error is {:.3g} {}", count,
+                budget.max_error, budget.outliers, metrics.all.max_error, at(metrics.all.worst)));
+    }
+    const ErrorStatistics& inner = metrics.away_from_edges;
+    if (budget.max_away_from_edges && inner.pixels == 0)
+        broken.push_back("every pixel counts as an edge, none is left to compare away from edges");
+    if (budget.max_away_from_edges && !(inner.max_error <= *budget.max_away_from_edges))
+        broken.push_back(fmt::format("away from edges the largest error is {:.3g} {}, {:.3g} may be",
+                                     inner.max_error, at(inner.worst), *budget.max_away_from_edges));
+    if (budget.above_1e3) {
+        const std::size_t count = metrics.all.above(above_1e3_threshold);
+        if (count > *budget.above_1e3)
+            broken.push_back(
+                fmt::format("{} pixels differ by more than 0.001, {} may; the largest error is {:.3g} {}",
+                            count, *budget.above_1e3, metrics.all.max_error, at(metrics.all.worst)));
+    }
+    Judgement judgement{broken.empty() ? Verdict::passed : Verdict::failed, {}};
+    for (const std::string& text : broken)
+        judgement.reason += (judgement.reason.empty() ? "" : "; ") + text;
+    return judgement;
+}
+
+const char* name_of(Verdict verdict) {
+    switch (verdict) {
+    case Verdict::passed:
+        return "passed";
+    case Verdict::failed:
+        return "failed";
+    case Verdict::skipped:
+        return "skipped";
+    }
+    return "";
+}
+
+} // namespace scc::validation

@@ -1,0 +1,68 @@
+#include "validation/doctor.h"
+
+#include "validation/renderer_output.h"
+#include "validation/renderers.h"
+#include "validation/subprocess.h"
+
+#include <array>
+#include <optional>
+
+namespace scc::validation {
+namespace {
+
+constexpr double version_timeout_seconds = 20;
+
+/// The first line of `NAME --version`.
+std::optional<std::string> first_line(const char* program) {
+    Command command;
+    command.program = program;
+    command.arguments = {"--version"};
+    command.timeout_seconds = version_timeout_seconds;
+    const ProcessResult result = run(command);
+    if (result.end == ProcessEnd::not_started)
+        return std::nullopt;
+    const std::vector<std::string> lines = lines_of(result.out);
+    return result.ok() && !lines.empty() ? lines.front() : std::string();
+}
+
+struct Row {
+    const char* name;
+    const char* purpose;
+    const char* how_to_get;
+    std::optional<std::string> (*version)();
+};
+
+constexpr const char* compiles = "compiles scenes into programs (scc build)";
+
+constexpr std::array rows{
+    Row{"c++", compiles, "apt install g++", [] { return first_line("c++"); }},
+    Row{"g++", compiles, "apt install g++", [] { return first_line("g++"); }},
+    Row{"clang++", compiles, "apt install clang", [] { return first_line("clang++"); }},
+    Row{"povray", "draws exported scenes (scc validate --against pov)", "apt install povray", povray_version},
+    Row{"blender", "draws exported scenes (scc validate --against blender)", "apt install blender",
+        blender_version},
+};
+
+} // namespace
+
+std::vector<Tool> find_tools() {
+    std::vector<Tool> tools;
+    for (const Row& row : rows) {
+        const std::optional<std::string> version = row.version();
+        tools.push_back({row.name, row.purpose, version.has_value(), version.value_or(""), row.how_to_get});
+    }
+    return tools;
+}
+
+nlohmann::ordered_json to_json(const std::vector<Tool>& tools) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const Tool& tool : tools)
+        json.push_back({{"name", tool.name},
+                        {"purpose", tool.purpose},
+                        {"found", tool.found},
+                        {"version", tool.version},
+                        {"how_to_get", tool.how_to_get}});
+    return json;
+}
+
+} // namespace scc::validation
