@@ -49,7 +49,24 @@ struct TypeExpr {
 
 enum class Unit : std::uint8_t { none, deg, rad, mm, cm, m, km, inch };
 enum class UnaryOp { minus, logical_not };
-enum class BinaryOp { then, logical_or, logical_and, eq, ne, lt, le, gt, ge, range, add, sub, mul, div, mod, pow };
+enum class BinaryOp {
+    then,
+    logical_or,
+    logical_and,
+    eq,
+    ne,
+    lt,
+    le,
+    gt,
+    ge,
+    range,
+    add,
+    sub,
+    mul,
+    div,
+    mod,
+    pow
+};
 
 struct Formal {
     Name name;
@@ -129,8 +146,8 @@ struct Index {
 struct ErrorExpr {}; ///< stands where parsing failed; reported already
 
 struct Expr {
-    std::variant<ErrorExpr, Number, String, HexColor, Bool, NameRef, Construct, Tuple, List, Comprehension, Conditional, Lambda,
-                 Unary, Binary, Member, Call, Index>
+    std::variant<ErrorExpr, Number, String, HexColor, Bool, NameRef, Construct, Tuple, List, Comprehension,
+                 Conditional, Lambda, Unary, Binary, Member, Call, Index>
         node;
     Span span;
 };

@@ -13,9 +13,15 @@ constexpr std::size_t bracket_kinds = 3; // ( [ {
 
 // tokens.def lists the brackets as ( ) [ ] { }.
 constexpr std::size_t first_bracket = static_cast<std::size_t>(TokenKind::left_paren);
-constexpr bool is_bracket(TokenKind kind) { return kind >= TokenKind::left_paren && kind <= TokenKind::right_brace; }
-constexpr std::size_t shape(TokenKind kind) { return (static_cast<std::size_t>(kind) - first_bracket) / 2; }
-constexpr bool opens(TokenKind kind) { return (static_cast<std::size_t>(kind) - first_bracket) % 2 == 0; }
+constexpr bool is_bracket(TokenKind kind) {
+    return kind >= TokenKind::left_paren && kind <= TokenKind::right_brace;
+}
+constexpr std::size_t shape(TokenKind kind) {
+    return (static_cast<std::size_t>(kind) - first_bracket) / 2;
+}
+constexpr bool opens(TokenKind kind) {
+    return (static_cast<std::size_t>(kind) - first_bracket) % 2 == 0;
+}
 constexpr TokenKind closer_of(TokenKind opener) {
     return static_cast<TokenKind>(static_cast<std::size_t>(opener) + 1);
 }
@@ -92,7 +98,8 @@ void Pairing::pair(std::uint32_t closer) {
     pop();
 }
 
-/// One message for the brackets of open_ from `first` on; those that nest too deep are the parser's to report.
+/// One message for the brackets of open_ from `first` on; those that nest too deep are the parser's to
+/// report.
 void Pairing::report_unclosed(std::size_t first) {
     constexpr std::size_t most_notes = 3;
     if (first >= open_.size() || open_.size() > static_cast<std::size_t>(max_nesting)) {

@@ -49,14 +49,15 @@ struct Module {
     std::shared_ptr<const void> storage;
 };
 
-/// Types every expression of the file against the schema, reporting all errors, and evaluates it if there were none.
-/// A `-D` that names no `param` is reported at no place (Span{}) as unknown-param.
-Module check(std::shared_ptr<const ast::File> file, const Schema& schema, const std::vector<Definition>& definitions,
-             SourceSet& sources, Diagnostics& diagnostics, const EvaluationLimits& limits = {});
+/// Types every expression of the file against the schema, reporting all errors, and evaluates it if there
+/// were none. A `-D` that names no `param` is reported at no place (Span{}) as unknown-param.
+Module check(std::shared_ptr<const ast::File> file, const Schema& schema,
+             const std::vector<Definition>& definitions, SourceSet& sources, Diagnostics& diagnostics,
+             const EvaluationLimits& limits = {});
 
-/// Runs a per-point function on an unknown surface and hands every operation to the builder. Returns one scalar for a
-/// number, three for a colour or vector; constant where the function does not depend on the surface. What a
-/// per-point function may not do (recursion, shapes, unknown loop bounds) is reported.
+/// Runs a per-point function on an unknown surface and hands every operation to the builder. Returns one
+/// scalar for a number, three for a colour or vector; constant where the function does not depend on the
+/// surface. What a per-point function may not do (recursion, shapes, unknown loop bounds) is reported.
 std::vector<Scalar> trace(const ClosurePtr& function, SymbolBuilder& builder, Diagnostics& diagnostics);
 
 /// The name of the `fn` or `let` that a function value came from; empty for a lambda.

@@ -140,6 +140,7 @@ void Checker::ensure_function(Binding& binding) {
 
 Typed Checker::check(const ast::Lambda& node, const ast::Expr& expr, const Place& place) {
     FunctionCode& code = functions_.emplace_back();
+    code.name = place.thing_name;
     code.span = expr.span;
     const std::vector<Type> parameters = formal_types(node.formals);
     defaults(node.formals, parameters, place, code);

@@ -29,7 +29,7 @@ CheckedFile Checker::run(const ast::File& file, const std::vector<Definition>& g
             checked.params.push_back(param_code(*binding));
         }
     }
-    definitions(given, checked.params);
+    definitions(given, scope, checked.params);
     names_.report_cycles();
     close(scope, checked.body.cells);
     checked.functions = std::move(functions_);

@@ -89,7 +89,7 @@ ParamCode Checker::param_code(Binding& binding) {
     if (item.default_value) {
         expect(fmt::format("the param `{}`", binding.name), binding.type, value.type, *item.default_value);
     }
-    code.default_value = std::move(value.code);
+    binding.code = std::move(value.code);
     if (item.range) {
         param_range(item, binding.type, place, code);
     }
@@ -114,7 +114,8 @@ void Checker::param_range(const ast::Param& item, const Type& type, const Place&
     code.end = std::move(end.code);
 }
 
-void Checker::definitions(const std::vector<Definition>& definitions, std::vector<ParamCode>& params) {
+void Checker::definitions(const std::vector<Definition>& definitions, const Scope& scope,
+                          std::vector<ParamCode>& params) {
     for (const Definition& definition : definitions) {
         ParamCode* found = nullptr;
         std::vector<std::string_view> names;
@@ -122,11 +123,15 @@ void Checker::definitions(const std::vector<Definition>& definitions, std::vecto
             found = param.name == definition.name ? &param : found;
             names.push_back(param.name);
         }
-        if (found) {
-            found->given = given_value(definition, *found);
-        } else {
+        if (!found) {
             diagnostics_.report(Diag::unknown_param, Span{}, definition.name,
                                 did_you_mean(nearest(definition.name, names)));
+            continue;
+        }
+        CodePtr value = given_value(definition, *found);
+        std::swap(scope.cells[found->cell]->code, value);
+        if (!found->default_value) { // else the value of an earlier -D is dropped
+            found->default_value = std::move(value);
         }
     }
 }

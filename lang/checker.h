@@ -119,7 +119,8 @@ private:
     void param(Binding& binding);
     ParamCode param_code(Binding& binding);
     void param_range(const ast::Param& item, const Type& type, const Place& place, ParamCode& code);
-    void definitions(const std::vector<Definition>& definitions, std::vector<ParamCode>& params);
+    void definitions(const std::vector<Definition>& definitions, const Scope& scope,
+                     std::vector<ParamCode>& params);
     CodePtr given_value(const Definition& definition, const ParamCode& param);
     void find_unit(const ast::File& file);
 

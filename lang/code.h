@@ -148,9 +148,8 @@ struct FunctionCode {
 struct ParamCode {
     std::string_view name;
     Type type;
-    CodePtr default_value;
-    CodePtr given;      ///< by `-D`; else null
-    CodePtr begin, end; ///< of its range; null: none
+    CodePtr default_value; ///< only where `-D` gives another value; else the cell's code is the default
+    CodePtr begin, end;    ///< of its range; null: none
     std::string text;
     Span span;
     std::size_t cell; ///< of the file's frame

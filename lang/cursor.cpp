@@ -1,10 +1,13 @@
 #include "lang/cursor.h"
 
+#include "lang/utf8.h"
+
 namespace scc::lang {
 namespace {
 
 bool is_closer(TokenKind kind) {
-    return kind == TokenKind::right_paren || kind == TokenKind::right_bracket || kind == TokenKind::right_brace;
+    return kind == TokenKind::right_paren || kind == TokenKind::right_bracket ||
+           kind == TokenKind::right_brace;
 }
 
 /// After these the next line goes on with the item.
@@ -32,8 +35,10 @@ bool leaves_line_open(TokenKind kind) {
     case TokenKind::kw_and:
     case TokenKind::kw_or:
     case TokenKind::kw_not:
-    case TokenKind::kw_else: return true;
-    default: return false;
+    case TokenKind::kw_else:
+        return true;
+    default:
+        return false;
     }
 }
 
@@ -46,8 +51,27 @@ bool continues_item(TokenKind kind) {
 } // namespace
 
 bool Cursor::line_ends_before(std::uint32_t index) const {
-    return tokens_[index].starts_line && lines_end_items_ && index > 0 && !continues_item(tokens_[index].kind) &&
-           !leaves_line_open(tokens_[index - 1].kind);
+    if (!tokens_[index].starts_line || !lines_end_items_ || index == 0 ||
+        continues_item(tokens_[index].kind)) {
+        return false;
+    }
+    return !leaves_line_open(tokens_[index - 1].kind) || begins_only_items(index);
+}
+
+/// No expression goes on like this: what the line before lacks is not here.
+bool Cursor::begins_only_items(std::uint32_t index) const {
+    switch (tokens_[index].kind) {
+    case TokenKind::kw_import:
+    case TokenKind::kw_param:
+    case TokenKind::kw_let:
+    case TokenKind::kw_for:
+        return true;
+    case TokenKind::name: // a field, unless it is the result type of a function; a name is never the last
+                          // token
+        return tokens_[index + 1].kind == TokenKind::assign && tokens_[index - 1].kind != TokenKind::arrow;
+    default:
+        return false;
+    }
 }
 
 /// A closing bracket that closes nothing was reported and is as good as unreadable.
@@ -70,16 +94,16 @@ Span Cursor::place() const {
 }
 
 std::string Cursor::description() const {
-    constexpr std::size_t longest = 40;
     switch (kind_) {
     case TokenKind::error:
     case TokenKind::end_of_file:
     case TokenKind::end_of_line:
-    case TokenKind::string: return std::string(spelling(kind_));
-    default: break;
+    case TokenKind::string:
+        return std::string(spelling(kind_));
+    default:
+        break;
     }
-    const std::string_view spelled = text(token().span);
-    return spelled.size() <= longest ? fmt::format("`{}`", spelled) : fmt::format("`{}...`", spelled.substr(0, longest));
+    return fmt::format("`{}`", shortened(text(token().span)));
 }
 
 bool Cursor::expect(TokenKind kind) {
@@ -109,11 +133,14 @@ void Cursor::report_too_deep() {
     panic();
 }
 
-void Cursor::grow(Span op) {
-    if (++height_ > max_chain) {
-        complain({}, Diag::chain_too_long, op, max_chain);
-        panic();
+bool Cursor::grow(Span op) {
+    if (++height_ <= max_chain) {
+        return true;
     }
+    complain({}, Diag::chain_too_long, op, max_chain);
+    height_ = 0;
+    panic();
+    return false;
 }
 
 void Cursor::skip() {
@@ -135,14 +162,15 @@ void Cursor::recover(std::uint32_t start) {
 
 Group::Group(Cursor& cursor)
     : cursor_(cursor), opener_(cursor.token().span), partner_(cursor.partner_[cursor.pos_]),
-      outer_limit_(cursor.limit_), outer_lines_end_items_(cursor.lines_end_items_), outer_muted_(cursor.muted_) {
-    const bool braces = cursor.at(TokenKind::left_brace);
+      outer_limit_(cursor.limit_), outer_lines_end_items_(cursor.lines_end_items_),
+      outer_muted_(cursor.muted_), is_brace_(cursor.at(TokenKind::left_brace)) {
     const bool paired = partner_ != no_partner;
-    const bool mispaired = paired && static_cast<int>(cursor.tokens_[partner_].kind) != static_cast<int>(cursor.kind()) + 1;
-    cursor_.lines_end_items_ = braces || !paired;
+    const bool mispaired =
+        paired && static_cast<int>(cursor.tokens_[partner_].kind) != static_cast<int>(cursor.kind()) + 1;
+    cursor_.lines_end_items_ = is_brace_ || !paired;
     cursor_.limit_ = paired ? partner_ : outer_limit_;
     failed_ = !paired || mispaired;
-    cursor_.muted_ = outer_muted_ || (failed_ && !braces);
+    cursor_.muted_ = outer_muted_ || (failed_ && !is_brace_);
     cursor_.advance();
 }
 
@@ -158,6 +186,8 @@ Span Group::finish(std::string_view expected) {
     if (paired) {
         cursor_.panic_ = false;
         cursor_.pos_ = partner_ + 1;
+    } else if (!is_brace_) {
+        cursor_.panic_ = true; // nobody knows where it ends
     }
     cursor_.update();
     return cursor_.span_from(opener_);

@@ -15,14 +15,16 @@
 
 namespace scc::lang {
 
-/// Walks over the tokens of a file for the parser: decides where lines end items, bounds nesting, and holds the state
-/// of error recovery. After fail() the cursor panics: it stands still and matches nothing, so that the parser's rules
-/// return, until the innermost bracket or item that can be skipped as a whole ends the panic.
+/// Walks over the tokens of a file for the parser: decides where lines end items, bounds nesting, and holds
+/// the state of error recovery. After fail() the cursor panics: it stands still and matches nothing, so that
+/// the parser's rules return, until the innermost bracket or item that can be skipped as a whole ends the
+/// panic.
 class Cursor {
 public:
     Cursor(const SourceFile& source, const std::vector<Token>& tokens, Diagnostics& diagnostics)
         : text_(source.text()), tokens_(tokens), diagnostics_(diagnostics),
-          partner_(pair_brackets(tokens, diagnostics)), limit_(static_cast<std::uint32_t>(tokens.size() - 1)) {
+          partner_(pair_brackets(tokens, diagnostics)),
+          limit_(static_cast<std::uint32_t>(tokens.size() - 1)) {
         update();
     }
 
@@ -35,14 +37,18 @@ public:
     bool panicking() const { return panic_; }
     TokenKind peek() const { return panic_ ? kind_ : effective_kind(std::min(pos_ + 1, limit_)); }
     /// A line ends here, and the next begins with an opening brace.
-    bool at_brace_on_new_line() const { return at(TokenKind::end_of_line) && token().kind == TokenKind::left_brace; }
+    bool at_brace_on_new_line() const {
+        return at(TokenKind::end_of_line) && token().kind == TokenKind::left_brace;
+    }
 
     const Token& token() const { return tokens_[pos_]; }
     const Token& previous() const { return tokens_[pos_ == 0 ? 0 : pos_ - 1]; }
     std::uint32_t position() const { return pos_; }
     std::string_view text(Span span) const { return text_.substr(span.begin, span.end - span.begin); }
     /// From a token's begin to the end of the last token that was read.
-    Span span_from(Span first) const { return {first.file, first.begin, std::max(first.end, previous().span.end)}; }
+    Span span_from(Span first) const {
+        return {first.file, first.begin, std::max(first.end, previous().span.end)};
+    }
     /// Where a message about the current token points.
     Span place() const;
     /// The current token as a message names it.
@@ -79,11 +85,13 @@ public:
         panic_ = true;
         kind_ = TokenKind::end_of_file;
     }
-    /// Ends a panic: skips to the next separator in the current brackets, but at least one token from `start`.
+    /// Ends a panic: skips to the next separator in the current brackets, but at least one token from
+    /// `start`.
     void recover(std::uint32_t start);
 
-    /// One more operator in a chain, which makes the tree one higher.
-    void grow(Span op);
+    /// One more operator in a chain, which makes the tree one higher. False if it is one too many; what was
+    /// built of the chain is then dropped, for the height is counted anew.
+    bool grow(Span op);
 
 private:
     friend class Group;
@@ -91,10 +99,12 @@ private:
     friend class Height;
 
     bool line_ends_before(std::uint32_t index) const;
+    bool begins_only_items(std::uint32_t index) const;
     bool is_unreadable(std::uint32_t index) const { return raw_kind(index) == TokenKind::error; }
     TokenKind raw_kind(std::uint32_t index) const;
     TokenKind effective_kind(std::uint32_t index) const {
-        return line_ends_before(index) ? TokenKind::end_of_line : raw_kind(index);
+        const bool starts_line = tokens_[index].starts_line;
+        return starts_line && line_ends_before(index) ? TokenKind::end_of_line : raw_kind(index);
     }
     void update() { kind_ = panic_ ? TokenKind::end_of_file : effective_kind(pos_); }
     void skip();
@@ -116,12 +126,14 @@ private:
     int height_ = 0; ///< an upper bound for the tree built in the current Height
 };
 
-/// The inside of a pair of brackets. finish() is called on every path; it also ends a panic that began inside.
+/// The inside of a pair of brackets. finish() is called on every path; it also ends a panic that began
+/// inside.
 class Group {
 public:
     explicit Group(Cursor& cursor); ///< at the opening bracket, which it passes
 
-    /// Passes the closing bracket; what stands before it instead is reported. The span is that of the whole group.
+    /// Passes the closing bracket; what stands before it instead is reported. The span is that of the whole
+    /// group.
     Span finish(std::string_view expected);
     /// After finish(): the inside is not to be trusted.
     bool failed() const { return failed_; }
@@ -132,6 +144,7 @@ private:
     std::uint32_t partner_;
     std::uint32_t outer_limit_;
     bool outer_lines_end_items_, outer_muted_;
+    bool is_brace_;
     bool failed_ = false;
 };
 

@@ -99,7 +99,8 @@ std::vector<std::pair<Binding*, Span>> way_round(Binding* start, const std::vect
         Binding* binding = queue.front();
         queue.pop_front();
         for (const Use& use : binding->uses) {
-            if (component.contains(use.target) && reached_from.try_emplace(use.target, binding, use.span).second) {
+            if (component.contains(use.target) &&
+                reached_from.try_emplace(use.target, binding, use.span).second) {
                 queue.push_back(use.target);
             }
         }

@@ -17,7 +17,9 @@ const std::vector<DiagnosticRow>& diagnostic_rows() {
     return rows;
 }
 
-const DiagnosticRow& row(Diag kind) { return diagnostic_rows()[static_cast<std::size_t>(kind)]; }
+const DiagnosticRow& row(Diag kind) {
+    return diagnostic_rows()[static_cast<std::size_t>(kind)];
+}
 
 Diagnostic& Diagnostics::add(Diag kind, Span span, std::string message) {
     const Severity severity = row(kind).severity;
@@ -48,7 +50,8 @@ std::vector<Diagnostic> Diagnostics::sorted() const {
         const Diagnostic& d = all_[i];
         return std::tie(d.span.file, d.span.begin, d.span.end, d.kind, d.message);
     };
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return what(a) < what(b); });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return what(a) < what(b); });
     const auto repeats = std::unique(order.begin(), order.end(),
                                      [&](std::size_t a, std::size_t b) { return what(a) == what(b); });
     order.erase(repeats, order.end());
@@ -69,7 +72,9 @@ namespace {
 
 constexpr std::size_t longest_word = 64;
 
-char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+char lower(char c) {
+    return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+}
 
 /// Insertions, deletions, substitutions and swaps of neighbours that turn `a` into `b`, regardless of case.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -93,18 +98,22 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 // In a short word one letter changes everything: `x` is not a misspelt `y`.
-std::size_t tolerated_edits(std::size_t length) { return length < 3 ? 0 : length < 6 ? 1 : length < 10 ? 2 : 3; }
+std::size_t tolerated_edits(std::size_t length) {
+    return length < 3 ? 0 : length < 6 ? 1 : length < 10 ? 2 : 3;
+}
 
 } // namespace
 
-std::optional<std::string_view> nearest(std::string_view word, const std::vector<std::string_view>& candidates) {
+std::optional<std::string_view> nearest(std::string_view word,
+                                        const std::vector<std::string_view>& candidates) {
     std::optional<std::string_view> best;
     std::size_t best_distance = tolerated_edits(word.size()) + 1;
     if (word.size() > longest_word) {
         return best;
     }
     for (const std::string_view candidate : candidates) {
-        if (candidate.size() > word.size() + best_distance || word.size() > candidate.size() + best_distance) {
+        if (candidate.size() > word.size() + best_distance ||
+            word.size() > candidate.size() + best_distance) {
             continue;
         }
         const std::size_t distance = edit_distance(word, candidate);

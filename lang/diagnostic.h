@@ -77,7 +77,8 @@ public:
     std::size_t warning_count() const;
     /// `--strict`: every warning becomes an error.
     void promote_warnings();
-    /// By file, then position; what was reported first comes first at equal positions. Exact repeats are dropped.
+    /// By file, then position; what was reported first comes first at equal positions. Exact repeats are
+    /// dropped.
     std::vector<Diagnostic> sorted() const;
 
 private:
@@ -87,10 +88,12 @@ private:
     std::size_t errors_ = 0;
 };
 
-/// Clang's layout: `file:line:col: severity: message [name]`, the source line, the range, the replacement, the notes.
+/// Clang's layout: `file:line:col: severity: message [name]`, the source line, the range, the replacement,
+/// the notes.
 std::string render_text(const SourceSet& sources, const Diagnostic& diagnostic, bool color);
 
 /// The nearest of `candidates` to `word` by edit distance, if it is near enough to be what was meant.
-std::optional<std::string_view> nearest(std::string_view word, const std::vector<std::string_view>& candidates);
+std::optional<std::string_view> nearest(std::string_view word,
+                                        const std::vector<std::string_view>& candidates);
 
 } // namespace scc::lang

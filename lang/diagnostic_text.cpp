@@ -28,9 +28,12 @@ Style style_of(Severity severity, bool color) {
 
 std::string_view word(Severity severity) {
     switch (severity) {
-    case Severity::note: return "note";
-    case Severity::warning: return "warning";
-    case Severity::error: return "error";
+    case Severity::note:
+        return "note";
+    case Severity::warning:
+        return "warning";
+    case Severity::error:
+        return "error";
     }
     return {};
 }
@@ -44,7 +47,8 @@ std::string place(const SourceSet& sources, Span span) {
     return fmt::format("{}:{}:{}: ", printable(file.path()), position.line, position.column);
 }
 
-std::string headline(const SourceSet& sources, Span span, Severity severity, std::string_view text, bool color) {
+std::string headline(const SourceSet& sources, Span span, Severity severity, std::string_view text,
+                     bool color) {
     const Style style = style_of(severity, color);
     return fmt::format("{}{}{}{}: {}{}{}{}", style.bold, place(sources, span), style.severity, word(severity),
                        style.reset, style.bold, printable(text), style.reset);
@@ -155,7 +159,8 @@ private:
             span.end > begin + line_.size() || !excerpt_.shows(span.begin - begin)) {
             return {};
         }
-        const std::string text = show(diagnostic_.fix->replacement).text;
+        std::string text = show(diagnostic_.fix->replacement).text;
+        text.erase(text.find_last_not_of(' ') + 1);
         return text.empty() ? text : std::string(excerpt_.column(span.begin - begin), ' ') + text;
     }
 

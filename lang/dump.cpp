@@ -11,11 +11,20 @@ std::string escaped(std::string_view text) {
     std::string out = "\"";
     for (const char c : text) {
         switch (c) {
-        case '"': out += "\\\""; break;
-        case '\\': out += "\\\\"; break;
-        case '\n': out += "\\n"; break;
-        case '\t': out += "\\t"; break;
-        default: out += c;
+        case '"':
+            out += "\\\"";
+            break;
+        case '\\':
+            out += "\\\\";
+            break;
+        case '\n':
+            out += "\\n";
+            break;
+        case '\t':
+            out += "\\t";
+            break;
+        default:
+            out += c;
         }
     }
     return out + '"';
@@ -25,7 +34,9 @@ std::string type_text(const ast::TypeExpr& type);
 
 struct TypeText {
     std::string operator()(const ast::NamedType& type) const { return type.name.text; }
-    std::string operator()(const ast::ListType& type) const { return fmt::format("[{}]", type_text(*type.element)); }
+    std::string operator()(const ast::ListType& type) const {
+        return fmt::format("[{}]", type_text(*type.element));
+    }
     std::string operator()(const ast::FunctionType& type) const {
         std::string parameters;
         for (const ast::TypeExprPtr& parameter : type.parameters) {
@@ -35,7 +46,9 @@ struct TypeText {
     }
 };
 
-std::string type_text(const ast::TypeExpr& type) { return std::visit(TypeText{}, type.node); }
+std::string type_text(const ast::TypeExpr& type) {
+    return std::visit(TypeText{}, type.node);
+}
 
 class Dump {
 public:
@@ -253,38 +266,64 @@ std::string dump_ast(const ast::Expr& expression) {
 
 std::string_view spelling(ast::Unit unit) {
     switch (unit) {
-    case ast::Unit::none: return "";
-    case ast::Unit::deg: return "deg";
-    case ast::Unit::rad: return "rad";
-    case ast::Unit::mm: return "mm";
-    case ast::Unit::cm: return "cm";
-    case ast::Unit::m: return "m";
-    case ast::Unit::km: return "km";
-    case ast::Unit::inch: return "inch";
+    case ast::Unit::none:
+        return "";
+    case ast::Unit::deg:
+        return "deg";
+    case ast::Unit::rad:
+        return "rad";
+    case ast::Unit::mm:
+        return "mm";
+    case ast::Unit::cm:
+        return "cm";
+    case ast::Unit::m:
+        return "m";
+    case ast::Unit::km:
+        return "km";
+    case ast::Unit::inch:
+        return "inch";
     }
     return {};
 }
 
-std::string_view spelling(ast::UnaryOp op) { return op == ast::UnaryOp::minus ? "-" : "not"; }
+std::string_view spelling(ast::UnaryOp op) {
+    return op == ast::UnaryOp::minus ? "-" : "not";
+}
 
 std::string_view spelling(ast::BinaryOp op) {
     switch (op) {
-    case ast::BinaryOp::then: return "then";
-    case ast::BinaryOp::logical_or: return "or";
-    case ast::BinaryOp::logical_and: return "and";
-    case ast::BinaryOp::eq: return "==";
-    case ast::BinaryOp::ne: return "!=";
-    case ast::BinaryOp::lt: return "<";
-    case ast::BinaryOp::le: return "<=";
-    case ast::BinaryOp::gt: return ">";
-    case ast::BinaryOp::ge: return ">=";
-    case ast::BinaryOp::range: return "..";
-    case ast::BinaryOp::add: return "+";
-    case ast::BinaryOp::sub: return "-";
-    case ast::BinaryOp::mul: return "*";
-    case ast::BinaryOp::div: return "/";
-    case ast::BinaryOp::mod: return "%";
-    case ast::BinaryOp::pow: return "^";
+    case ast::BinaryOp::then:
+        return "then";
+    case ast::BinaryOp::logical_or:
+        return "or";
+    case ast::BinaryOp::logical_and:
+        return "and";
+    case ast::BinaryOp::eq:
+        return "==";
+    case ast::BinaryOp::ne:
+        return "!=";
+    case ast::BinaryOp::lt:
+        return "<";
+    case ast::BinaryOp::le:
+        return "<=";
+    case ast::BinaryOp::gt:
+        return ">";
+    case ast::BinaryOp::ge:
+        return ">=";
+    case ast::BinaryOp::range:
+        return "..";
+    case ast::BinaryOp::add:
+        return "+";
+    case ast::BinaryOp::sub:
+        return "-";
+    case ast::BinaryOp::mul:
+        return "*";
+    case ast::BinaryOp::div:
+        return "/";
+    case ast::BinaryOp::mod:
+        return "%";
+    case ast::BinaryOp::pow:
+        return "^";
     }
     return {};
 }

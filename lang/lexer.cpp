@@ -24,7 +24,9 @@ private:
     Span span(std::size_t begin, std::size_t end) const {
         return {file_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
     }
-    std::string_view slice(std::size_t begin, std::size_t end) const { return text_.substr(begin, end - begin); }
+    std::string_view slice(std::size_t begin, std::size_t end) const {
+        return text_.substr(begin, end - begin);
+    }
 
     void push(TokenKind kind, std::size_t begin, double number = 0, ast::Unit unit = ast::Unit::none) {
         tokens_.push_back({number, span(begin, pos_), kind, unit, line_start_});
@@ -94,7 +96,9 @@ void Lexer::token() {
     switch (c) {
     case ' ':
     case '\t':
-    case '\r': ++pos_; return;
+    case '\r':
+        ++pos_;
+        return;
     case '\n':
         ++pos_;
         line_start_ = true;
@@ -104,30 +108,54 @@ void Lexer::token() {
             return line_comment();
         }
         return peek(1) == '*' ? block_comment() : punctuation(TokenKind::slash);
-    case '"': return string();
-    case '#': return hex_color();
-    case '(': return punctuation(TokenKind::left_paren);
-    case ')': return punctuation(TokenKind::right_paren);
-    case '[': return punctuation(TokenKind::left_bracket);
-    case ']': return punctuation(TokenKind::right_bracket);
-    case '{': return punctuation(TokenKind::left_brace);
-    case '}': return punctuation(TokenKind::right_brace);
-    case ',': return punctuation(TokenKind::comma);
-    case ';': return punctuation(TokenKind::semicolon);
-    case ':': return punctuation(TokenKind::colon);
-    case '.': return dot();
-    case '+': return punctuation(TokenKind::plus);
-    case '-': return either('>', TokenKind::arrow, TokenKind::minus);
-    case '*': return punctuation(TokenKind::star);
-    case '%': return punctuation(TokenKind::percent);
-    case '^': return punctuation(TokenKind::caret);
-    case '=': return either('=', TokenKind::equal, TokenKind::assign);
-    case '<': return either('=', TokenKind::less_equal, TokenKind::less);
-    case '>': return either('=', TokenKind::greater_equal, TokenKind::greater);
-    case '!': return peek(1) == '=' ? punctuation(TokenKind::not_equal, 2) : foreign_operator(TokenKind::kw_not, 1);
-    case '&': return peek(1) == '&' ? foreign_operator(TokenKind::kw_and, 2) : unreadable();
-    case '|': return peek(1) == '|' ? foreign_operator(TokenKind::kw_or, 2) : unreadable();
-    default: break;
+    case '"':
+        return string();
+    case '#':
+        return hex_color();
+    case '(':
+        return punctuation(TokenKind::left_paren);
+    case ')':
+        return punctuation(TokenKind::right_paren);
+    case '[':
+        return punctuation(TokenKind::left_bracket);
+    case ']':
+        return punctuation(TokenKind::right_bracket);
+    case '{':
+        return punctuation(TokenKind::left_brace);
+    case '}':
+        return punctuation(TokenKind::right_brace);
+    case ',':
+        return punctuation(TokenKind::comma);
+    case ';':
+        return punctuation(TokenKind::semicolon);
+    case ':':
+        return punctuation(TokenKind::colon);
+    case '.':
+        return dot();
+    case '+':
+        return punctuation(TokenKind::plus);
+    case '-':
+        return either('>', TokenKind::arrow, TokenKind::minus);
+    case '*':
+        return punctuation(TokenKind::star);
+    case '%':
+        return punctuation(TokenKind::percent);
+    case '^':
+        return punctuation(TokenKind::caret);
+    case '=':
+        return either('=', TokenKind::equal, TokenKind::assign);
+    case '<':
+        return either('=', TokenKind::less_equal, TokenKind::less);
+    case '>':
+        return either('=', TokenKind::greater_equal, TokenKind::greater);
+    case '!':
+        return peek(1) == '=' ? punctuation(TokenKind::not_equal, 2) : foreign_operator(TokenKind::kw_not, 1);
+    case '&':
+        return peek(1) == '&' ? foreign_operator(TokenKind::kw_and, 2) : unreadable();
+    case '|':
+        return peek(1) == '|' ? foreign_operator(TokenKind::kw_or, 2) : unreadable();
+    default:
+        break;
     }
     if (is_digit(c)) {
         return number();
@@ -192,13 +220,13 @@ void Lexer::finish_number(std::size_t begin) {
         while (is_digit(peek()) || (peek() == '.' && is_digit(peek(1)))) {
             ++pos_;
         }
-        diagnostics_.report(Diag::bad_number, span(begin, pos_), slice(begin, pos_));
+        diagnostics_.report(Diag::bad_number, span(begin, pos_), shortened(slice(begin, pos_)));
         return push(TokenKind::error, begin);
     }
     double value = 0;
     const std::from_chars_result result = std::from_chars(text_.data() + begin, text_.data() + pos_, value);
     if (result.ec == std::errc::result_out_of_range) {
-        diagnostics_.report(Diag::number_out_of_range, span(begin, pos_), slice(begin, pos_));
+        diagnostics_.report(Diag::number_out_of_range, span(begin, pos_), shortened(slice(begin, pos_)));
         return push(TokenKind::error, begin);
     }
     const bool has_unit = continues_name(peek()) || !is_ascii(peek());
@@ -215,8 +243,9 @@ void Lexer::unit(std::size_t begin, std::size_t unit_begin, double value) {
     }
     if (is_utf8_) {
         const std::optional<std::string_view> meant = likely_unit(text);
-        Diagnostic& diagnostic = diagnostics_.report(Diag::unknown_unit, span(unit_begin, pos_), text,
-                                                     meant ? fmt::format("; did you mean `{}`?", *meant) : "");
+        Diagnostic& diagnostic =
+            diagnostics_.report(Diag::unknown_unit, span(unit_begin, pos_), shortened(text),
+                                meant ? fmt::format("; did you mean `{}`?", *meant) : "");
         if (meant) {
             diagnostic.suggest(span(unit_begin, pos_), std::string(*meant));
         }
@@ -232,7 +261,8 @@ void Lexer::dot() {
     while (continues_name(peek()) || (peek() == '.' && is_digit(peek(1)))) {
         ++pos_;
     }
-    diagnostics_.report(Diag::bad_number, span(begin, pos_), slice(begin, pos_)).suggest(span(begin, begin), "0");
+    diagnostics_.report(Diag::bad_number, span(begin, pos_), shortened(slice(begin, pos_)))
+        .suggest(span(begin, begin), "0");
     push(TokenKind::error, begin);
 }
 
@@ -248,7 +278,8 @@ void Lexer::hex_color() {
         std::from_chars(digits.data(), digits.data() + digits.size(), rgb, 16);
         return push(TokenKind::hex_color, begin, rgb);
     }
-    Diagnostic& diagnostic = diagnostics_.report(Diag::bad_hex_color, span(begin, pos_), slice(begin, pos_));
+    Diagnostic& diagnostic =
+        diagnostics_.report(Diag::bad_hex_color, span(begin, pos_), shortened(slice(begin, pos_)));
     if (all_hex && digits.size() == 3) {
         const char r = digits[0], g = digits[1], b = digits[2];
         diagnostic.suggest(span(begin, pos_), std::string{'#', r, r, g, g, b, b});
@@ -293,8 +324,8 @@ void Lexer::escape() {
     }
 }
 
-// A bracket on the same line that closes one opened before the string ends it, so that the missing quote does not
-// also cost the brackets around it.
+// A bracket on the same line that closes one opened before the string ends it, so that the missing quote does
+// not also cost the brackets around it.
 void Lexer::unterminated_string(std::size_t begin, std::size_t line_end) {
     int open = 0;
     const bool has_escapes = slice(begin, line_end).find('\\') != std::string_view::npos;
@@ -320,7 +351,8 @@ void Lexer::foreign_operator(TokenKind meant, std::size_t length) {
     const std::size_t begin = pos_;
     punctuation(meant, length);
     const bool glued = continues_name(peek());
-    diagnostics_.report(Diag::unexpected_character, span(begin, pos_), fmt::format("`{}`", slice(begin, pos_)))
+    diagnostics_
+        .report(Diag::unexpected_character, span(begin, pos_), fmt::format("`{}`", slice(begin, pos_)))
         .suggest(span(begin, pos_), fmt::format("{}{}", spelling(meant), glued ? " " : ""));
 }
 

@@ -28,11 +28,12 @@ struct Token {
     bool starts_line = false; ///< the first token on its line
 };
 
-/// Splits a file into tokens, the last of which is end_of_file. Never stops at a mistake: what cannot be read is
-/// reported and becomes a token of kind `error`. Line ends are not tokens; the parser asks `starts_line`.
+/// Splits a file into tokens, the last of which is end_of_file. Never stops at a mistake: what cannot be read
+/// is reported and becomes a token of kind `error`. Line ends are not tokens; the parser asks `starts_line`.
 std::vector<Token> lex(const SourceSet& sources, FileId file, Diagnostics& diagnostics);
 
-/// What a string literal stands for: without its quotes and with escapes resolved. The closing quote may lack.
+/// What a string literal stands for: without its quotes and with escapes resolved. The closing quote may
+/// lack.
 std::string string_value(std::string_view literal);
 
 } // namespace scc::lang

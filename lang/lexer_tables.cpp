@@ -43,13 +43,15 @@ constexpr std::pair<std::string_view, ast::Unit> units[] = {
     {"m", ast::Unit::m},     {"km", ast::Unit::km},   {"inch", ast::Unit::inch}};
 
 constexpr std::pair<std::string_view, std::string_view> unit_synonyms[] = {
-    {"\xC2\xB0", "deg"}, {"d", "deg"},     {"degree", "deg"}, {"degrees", "deg"}, {"radian", "rad"},
-    {"radians", "rad"},  {"in", "inch"},   {"inches", "inch"}, {"meter", "m"},     {"metre", "m"},
-    {"meters", "m"},     {"metres", "m"}};
+    {"\xC2\xB0", "deg"}, {"d", "deg"},       {"degree", "deg"}, {"degrees", "deg"},
+    {"radian", "rad"},   {"radians", "rad"}, {"in", "inch"},    {"inches", "inch"},
+    {"meter", "m"},      {"metre", "m"},     {"meters", "m"},   {"metres", "m"}};
 
 } // namespace
 
-std::string_view spelling(TokenKind kind) { return spellings[static_cast<std::size_t>(kind)]; }
+std::string_view spelling(TokenKind kind) {
+    return spellings[static_cast<std::size_t>(kind)];
+}
 
 TokenKind kind_of_word(std::string_view word) {
     if (word[0] < 'a' || word[0] > 'z' || word.size() > longest_reserved_word) {
@@ -87,19 +89,28 @@ std::optional<std::string_view> likely_unit(std::string_view text) {
 
 std::string_view ascii_look_alike(char32_t code) {
     switch (code) {
-    case 0x00a0: return " ";
-    case 0x00d7: return "*";
+    case 0x00a0:
+        return " ";
+    case 0x00d7:
+        return "*";
     case 0x2010:
     case 0x2013:
-    case 0x2212: return "-";
-    case 0x2260: return "!=";
-    case 0x2264: return "<=";
-    case 0x2265: return ">=";
-    default: return {};
+    case 0x2212:
+        return "-";
+    case 0x2260:
+        return "!=";
+    case 0x2264:
+        return "<=";
+    case 0x2265:
+        return ">=";
+    default:
+        return {};
     }
 }
 
-bool is_wrong_quote(char32_t code) { return code == '\'' || (code >= 0x2018 && code <= 0x201f); }
+bool is_wrong_quote(char32_t code) {
+    return code == '\'' || (code >= 0x2018 && code <= 0x201f);
+}
 
 std::string named(const Character& c) {
     const std::string text = encode(c.code);

@@ -12,20 +12,33 @@
 /// What the lexer knows about characters and words.
 namespace scc::lang {
 
-constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
-constexpr bool is_hex_digit(char c) { return is_digit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F'); }
-constexpr bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
-constexpr bool is_ascii(char c) { return static_cast<unsigned char>(c) < 0x80; }
-constexpr bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+constexpr bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+constexpr bool is_hex_digit(char c) {
+    return is_digit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
+}
+constexpr bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+constexpr bool is_ascii(char c) {
+    return static_cast<unsigned char>(c) < 0x80;
+}
+constexpr bool is_control(char c) {
+    return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+}
 
 inline constexpr auto name_characters = [] {
     std::array<bool, 256> table{};
     for (int c = 0; c < 128; ++c) {
-        table[static_cast<std::size_t>(c)] = is_letter(static_cast<char>(c)) || is_digit(static_cast<char>(c));
+        table[static_cast<std::size_t>(c)] =
+            is_letter(static_cast<char>(c)) || is_digit(static_cast<char>(c));
     }
     return table;
 }();
-constexpr bool continues_name(char c) { return name_characters[static_cast<unsigned char>(c)]; }
+constexpr bool continues_name(char c) {
+    return name_characters[static_cast<unsigned char>(c)];
+}
 
 /// The reserved word, or `name`.
 TokenKind kind_of_word(std::string_view word);

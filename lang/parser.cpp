@@ -1,6 +1,7 @@
 #include "lang/parser.h"
 
 #include "lang/parser_rules.h"
+#include "lang/utf8.h"
 
 namespace scc::lang {
 
@@ -23,7 +24,7 @@ std::optional<double> Parser::language() {
     if (at(TokenKind::number)) {
         version = token().number;
         if (version != known_language || token().unit != ast::Unit::none) {
-            complain({}, Diag::unknown_language, token().span, text(token().span));
+            complain({}, Diag::unknown_language, token().span, shortened(text(token().span)));
         }
         advance();
     } else {
@@ -51,20 +52,31 @@ void Parser::item(std::vector<ast::Item>& items) {
         return field(items);
     }
     switch (kind()) {
-    case TokenKind::kw_import: return add(import());
-    case TokenKind::kw_param: return add(param());
-    case TokenKind::kw_let: return add(let());
-    case TokenKind::kw_for: return add(loop());
-    case TokenKind::kw_if: return cond(items);
+    case TokenKind::kw_import:
+        return add(import());
+    case TokenKind::kw_param:
+        return add(param());
+    case TokenKind::kw_let:
+        return add(let());
+    case TokenKind::kw_for:
+        return add(loop());
+    case TokenKind::kw_if:
+        return cond(items);
     case TokenKind::kw_fn:
         if (peek() != TokenKind::left_paren) {
             return add(func());
         }
         break;
-    case TokenKind::kw_else: complain({}, Diag::else_without_if, first); return panic();
-    case TokenKind::kw_language: complain({}, Diag::language_not_first, first); return panic();
-    case TokenKind::error: return panic();
-    default: break;
+    case TokenKind::kw_else:
+        complain({}, Diag::else_without_if, first);
+        return panic();
+    case TokenKind::kw_language:
+        complain({}, Diag::language_not_first, first);
+        return panic();
+    case TokenKind::error:
+        return panic();
+    default:
+        break;
     }
     ast::ExprPtr value = expr();
     add(ast::Child{std::move(value)});
@@ -243,10 +255,11 @@ void Parser::field(std::vector<ast::Item>& items) {
     const bool is_assigned = at(TokenKind::assign);
     if (!takes_fields_) {
         complain(Fix{join(first, op), fmt::format("let {} =", field_name.text)}, Diag::field_outside, first,
-                 field_name.text);
+                 shortened(field_name.text));
     } else if (!is_assigned) {
         const bool glued = op.begin == first.end;
-        complain(Fix{op, glued ? " =" : "="}, Diag::field_assignment, op, text(op), field_name.text);
+        complain(Fix{op, glued ? " =" : "="}, Diag::field_assignment, op, text(op),
+                 shortened(field_name.text));
     }
     advance();
     ast::ExprPtr value = expr();
@@ -318,20 +331,25 @@ bool Parser::begins_item() const {
     case TokenKind::kw_let:
     case TokenKind::kw_fn:
     case TokenKind::kw_for:
-    case TokenKind::kw_if: return true;
-    case TokenKind::name: return begins_field() || peek() == TokenKind::left_brace;
-    default: return false;
+    case TokenKind::kw_if:
+        return true;
+    case TokenKind::name:
+        return begins_field() || peek() == TokenKind::left_brace;
+    default:
+        return false;
     }
 }
 
 bool Parser::begins_field() const {
     const bool is_word = kind() >= TokenKind::kw_language && kind() <= TokenKind::kw_false;
     const TokenKind next = peek();
-    return (at(TokenKind::name) && (next == TokenKind::assign || next == TokenKind::colon || next == TokenKind::equal)) ||
+    return (at(TokenKind::name) &&
+            (next == TokenKind::assign || next == TokenKind::colon || next == TokenKind::equal)) ||
            (is_word && next == TokenKind::assign);
 }
 
-ast::File parse(const SourceSet& sources, FileId file, const std::vector<Token>& tokens, Diagnostics& diagnostics) {
+ast::File parse(const SourceSet& sources, FileId file, const std::vector<Token>& tokens,
+                Diagnostics& diagnostics) {
     return Parser(sources.file(file), file, tokens, diagnostics).file();
 }
 

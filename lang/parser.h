@@ -15,9 +15,10 @@ inline constexpr int max_nesting = 128;
 /// No tree is higher than this: `a + b + c + ...` makes one as high as the chain is long.
 inline constexpr int max_chain = 512;
 
-/// Recursive descent over the grammar in grammar.md. After a mistake it goes on at the next item, so one run reports
-/// all of them. What could not be read is an ErrorExpr, an empty name, or missing from the tree.
-ast::File parse(const SourceSet& sources, FileId file, const std::vector<Token>& tokens, Diagnostics& diagnostics);
+/// Recursive descent over the grammar in grammar.md. After a mistake it goes on at the next item, so one run
+/// reports all of them. What could not be read is an ErrorExpr, an empty name, or missing from the tree.
+ast::File parse(const SourceSet& sources, FileId file, const std::vector<Token>& tokens,
+                Diagnostics& diagnostics);
 
 /// lex and parse in one go.
 std::shared_ptr<const ast::File> parse_file(const SourceSet& sources, FileId file, Diagnostics& diagnostics);

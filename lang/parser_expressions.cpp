@@ -16,22 +16,38 @@ constexpr int range_level = 4;
 
 constexpr Operator operator_of(TokenKind kind) {
     switch (kind) {
-    case TokenKind::kw_then: return {0, BinaryOp::then};
-    case TokenKind::kw_or: return {1, BinaryOp::logical_or};
-    case TokenKind::kw_and: return {2, BinaryOp::logical_and};
-    case TokenKind::equal: return {comparison_level, BinaryOp::eq};
-    case TokenKind::not_equal: return {comparison_level, BinaryOp::ne};
-    case TokenKind::less: return {comparison_level, BinaryOp::lt};
-    case TokenKind::less_equal: return {comparison_level, BinaryOp::le};
-    case TokenKind::greater: return {comparison_level, BinaryOp::gt};
-    case TokenKind::greater_equal: return {comparison_level, BinaryOp::ge};
-    case TokenKind::dot_dot: return {range_level, BinaryOp::range};
-    case TokenKind::plus: return {5, BinaryOp::add};
-    case TokenKind::minus: return {5, BinaryOp::sub};
-    case TokenKind::star: return {6, BinaryOp::mul};
-    case TokenKind::slash: return {6, BinaryOp::div};
-    case TokenKind::percent: return {6, BinaryOp::mod};
-    default: return {-1, BinaryOp::then};
+    case TokenKind::kw_then:
+        return {0, BinaryOp::then};
+    case TokenKind::kw_or:
+        return {1, BinaryOp::logical_or};
+    case TokenKind::kw_and:
+        return {2, BinaryOp::logical_and};
+    case TokenKind::equal:
+        return {comparison_level, BinaryOp::eq};
+    case TokenKind::not_equal:
+        return {comparison_level, BinaryOp::ne};
+    case TokenKind::less:
+        return {comparison_level, BinaryOp::lt};
+    case TokenKind::less_equal:
+        return {comparison_level, BinaryOp::le};
+    case TokenKind::greater:
+        return {comparison_level, BinaryOp::gt};
+    case TokenKind::greater_equal:
+        return {comparison_level, BinaryOp::ge};
+    case TokenKind::dot_dot:
+        return {range_level, BinaryOp::range};
+    case TokenKind::plus:
+        return {5, BinaryOp::add};
+    case TokenKind::minus:
+        return {5, BinaryOp::sub};
+    case TokenKind::star:
+        return {6, BinaryOp::mul};
+    case TokenKind::slash:
+        return {6, BinaryOp::div};
+    case TokenKind::percent:
+        return {6, BinaryOp::mod};
+    default:
+        return {-1, BinaryOp::then};
     }
 }
 
@@ -72,7 +88,9 @@ ast::ExprPtr Parser::binary(int level) {
         ast::ExprPtr right = binary(op.level + 1);
         const Span span = join(left->span, right->span);
         left = make(ast::Binary{op.op, std::move(left), std::move(right), op_span}, span);
-        grow(op_span);
+        if (!grow(op_span)) {
+            return error(op_span);
+        }
     }
 }
 
@@ -121,7 +139,9 @@ ast::ExprPtr Parser::postfix() {
         } else {
             return result;
         }
-        grow(op_span);
+        if (!grow(op_span)) {
+            return error(op_span);
+        }
     }
 }
 
@@ -159,8 +179,10 @@ ast::ExprPtr Parser::index(ast::ExprPtr object) {
 ast::ExprPtr Parser::primary() {
     const Span span = token().span;
     switch (kind()) {
-    case TokenKind::number: return number();
-    case TokenKind::string: return string();
+    case TokenKind::number:
+        return number();
+    case TokenKind::string:
+        return string();
     case TokenKind::hex_color: {
         const auto rgb = static_cast<std::uint32_t>(token().number);
         advance();
@@ -172,13 +194,21 @@ ast::ExprPtr Parser::primary() {
         advance();
         return make(ast::Bool{value}, span);
     }
-    case TokenKind::name: return name_or_construct();
-    case TokenKind::left_paren: return parenthesised();
-    case TokenKind::left_bracket: return list();
-    case TokenKind::kw_if: return if_expression();
-    case TokenKind::kw_fn: return lambda();
-    case TokenKind::error: advance(); return error(span);
-    default: break;
+    case TokenKind::name:
+        return name_or_construct();
+    case TokenKind::left_paren:
+        return parenthesised();
+    case TokenKind::left_bracket:
+        return list();
+    case TokenKind::kw_if:
+        return if_expression();
+    case TokenKind::kw_fn:
+        return lambda();
+    case TokenKind::error:
+        advance();
+        return error(span);
+    default:
+        break;
     }
     ast::ExprPtr nothing = error();
     fail("an expression");

@@ -39,8 +39,8 @@ struct Binding {
     bool type_known = false;
     bool used = false;
     bool needs_result_type = false; ///< a function that was called before its result was known
-    std::uint32_t cell = 0; ///< of the scope's frame; functions have none
-    CodePtr code;           ///< what the cell is computed from
+    std::uint32_t cell = 0;         ///< of the scope's frame; functions have none
+    CodePtr code;                   ///< what the cell is computed from
     FunctionCode* function_code = nullptr;
     const ast::Let* let = nullptr;
     const ast::Param* param = nullptr;
@@ -72,8 +72,8 @@ public:
     static void note_use(Binding& target, Span span, Binding* user);
 
     void warn_unused(const Scope& scope);
-    /// Reports every let or param whose value needs itself, by way of functions too, and functions whose result type
-    /// cannot be found because they call themselves.
+    /// Reports every let or param whose value needs itself, by way of functions too, and functions whose
+    /// result type cannot be found because they call themselves.
     void report_cycles();
 
 private:

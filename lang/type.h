@@ -24,8 +24,8 @@ enum class TypeKind {
     light,
     camera,
     image,
-    setting, ///< `world`, `render`
-    method,  ///< `ray`, `raster`
+    setting,  ///< `world`, `render`
+    method,   ///< `ray`, `raster`
     list,     ///< args[0] is the element
     function, ///< args are the parameters, then the result
 };

@@ -23,4 +23,7 @@ int display_width(char32_t code);
 /// The text as it is safe to print: control characters and bytes that are not UTF-8 become U+FFFD.
 std::string printable(std::string_view text);
 
+/// The text as a message quotes it: of a long one only the beginning.
+std::string shortened(std::string_view text);
+
 } // namespace scc::lang

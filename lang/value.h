@@ -67,8 +67,8 @@ struct SurfaceValue {}; ///< the argument of a per-point function while it is tr
 
 /// What an expression evaluates to.
 struct Value {
-    std::variant<ErrorValue, NumberValue, AngleValue, BoolValue, std::string, Vec2Value, Vec3Value, ColorValue, TransformValue,
-                 RangeValue, SurfaceValue, ListPtr, ClosurePtr, ThingPtr>
+    std::variant<ErrorValue, NumberValue, AngleValue, BoolValue, std::string, Vec2Value, Vec3Value,
+                 ColorValue, TransformValue, RangeValue, SurfaceValue, ListPtr, ClosurePtr, ThingPtr>
         v;
 };
 
@@ -83,11 +83,11 @@ struct FieldValue {
 /// A built constructor: `sphere { radius = 1 }`. Immutable, shared between all places that use it.
 struct Thing {
     const Constructor* constructor = nullptr;
-    std::vector<FieldValue> fields;  ///< as written; defaults are in the schema
-    std::vector<ThingPtr> children;  ///< items of a group, in order
-    std::string name;                ///< of the `let` or `fn` that made it, else empty
-    Span span;                       ///< of the constructor expression
-    std::uint32_t height = 1;        ///< things that stand within each other, at most
+    std::vector<FieldValue> fields; ///< as written; defaults are in the schema
+    std::vector<ThingPtr> children; ///< items of a group, in order
+    std::string name;               ///< of the `let` or `fn` that made it, else empty
+    Span span;                      ///< of the constructor expression
+    std::uint32_t height = 1;       ///< things that stand within each other, at most
 
     const FieldValue* find(std::string_view field) const;
     /// The author's value, else the schema's default; null for an optional field that was not set.

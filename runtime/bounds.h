@@ -29,8 +29,7 @@ constexpr Bounds<R> transform_bounds(const Affine<R>& a, const Bounds<R>& b) {
     const Vec3<R> center = b.center();
     const Vec3<R> half = maximum(b.max - center, center - b.min);
     const Vec3<R> reach = transform_magnitude(a, half);
-    const Vec3<R> magnitude =
-        transform_magnitude(a, absolute(center)) + absolute(translation_of(a)) + reach;
+    const Vec3<R> magnitude = transform_magnitude(a, absolute(center)) + absolute(translation_of(a)) + reach;
     const Vec3<R> extent = reach + magnitude * (8 * roundoff);
     const Vec3<R> moved = transform_point(a, center);
     return {moved - extent, moved + extent};

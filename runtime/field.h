@@ -7,8 +7,8 @@ namespace scc::runtime {
 /// What values an author may give a field.
 enum class Rule { any, positive, non_negative, nonzero_vector };
 
-/// Describes one author-visible member of a shape: the front end's schema, the IR's text and the generated C++ are
-/// all derived from it. The default value is the member's initialiser.
+/// Describes one author-visible member of a shape: the front end's schema, the IR's text and the generated
+/// C++ are all derived from it. The default value is the member's initialiser.
 template <class Owner, class T>
 struct Field {
     std::string_view name;
@@ -24,12 +24,13 @@ constexpr Field<Owner, T> field(std::string_view name, T Owner::*member, Rule ru
     return {name, member, rule, doc, false, nullptr};
 }
 template <class Owner, class T>
-constexpr Field<Owner, T> required_field(std::string_view name, T Owner::*member, Rule rule, std::string_view doc) {
+constexpr Field<Owner, T> required_field(std::string_view name, T Owner::*member, Rule rule,
+                                         std::string_view doc) {
     return {name, member, rule, doc, true, nullptr};
 }
 template <class Owner, class T>
-constexpr Field<Owner, T> optional_field(std::string_view name, T Owner::*member, bool Owner::*present, Rule rule,
-                                         std::string_view doc) {
+constexpr Field<Owner, T> optional_field(std::string_view name, T Owner::*member, bool Owner::*present,
+                                         Rule rule, std::string_view doc) {
     return {name, member, rule, doc, false, present};
 }
 

@@ -12,9 +12,9 @@ namespace scc::runtime {
 /// What a per-point function can read.
 template <class L>
 struct SurfacePoint {
-    Vec3<L> p;     ///< in object space
+    Vec3<L> p; ///< in object space
     Vec3<L> world;
-    Vec3<L> n;     ///< unit geometric normal in world space
+    Vec3<L> n; ///< unit geometric normal in world space
 };
 
 /// One step of a per-point function: a constant, an input, or a row of operators.def.
@@ -76,8 +76,8 @@ L execute(const Instruction<R>& instruction, const SurfacePoint<L>& point, const
         return point.n.y;
     case Opcode::n_z:
         return point.n.z;
-#define SCC_OPERATOR(name, arity, value, cpp, sdl, blender)                                                         \
-    case Opcode::name:                                                                                              \
+#define SCC_OPERATOR(name, arity, value, cpp, sdl, blender)                                                  \
+    case Opcode::name:                                                                                       \
         return L(value);
 #include "runtime/operators.def"
 #undef SCC_OPERATOR

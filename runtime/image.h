@@ -18,7 +18,8 @@ struct Image {
           pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(c)) {}
 
     float* at(int x, int y) {
-        return &pixels[(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
+        return &pixels[(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                        static_cast<std::size_t>(x)) *
                        static_cast<std::size_t>(channels)];
     }
     const float* at(int x, int y) const { return const_cast<Image*>(this)->at(x, y); }

@@ -14,13 +14,14 @@ struct MeshTriangle {
 };
 static_assert(sizeof(MeshTriangle) == 16);
 
-/// A triangle mesh in object space as the kernels read it. Owns nothing: a program may map the arrays from a file. All
-/// of them are plain numbers without padding.
+/// A triangle mesh in object space as the kernels read it. Owns nothing: a program may map the arrays from a
+/// file. All of them are plain numbers without padding.
 struct MeshData {
-    const float* positions = nullptr;             ///< x y z each
-    const float* normals = nullptr;               ///< x y z each, or null: flat
-    const std::uint32_t* normal_indices = nullptr; ///< 3 per triangle, by MeshTriangle::id; null where normals is
-    const MeshTriangle* triangles = nullptr;      ///< in the order of the hierarchy's leaves
+    const float* positions = nullptr; ///< x y z each
+    const float* normals = nullptr;   ///< x y z each, or null: flat
+    const std::uint32_t* normal_indices =
+        nullptr;                             ///< 3 per triangle, by MeshTriangle::id; null where normals is
+    const MeshTriangle* triangles = nullptr; ///< in the order of the hierarchy's leaves
     const BvhNode* nodes = nullptr;
     std::uint32_t position_count = 0;
     std::uint32_t normal_count = 0;

@@ -9,9 +9,13 @@
 namespace scc::runtime {
 
 template <class Shape>
-inline constexpr bool is_mesh = requires(const Shape& s) { s.mesh; };
+inline constexpr bool is_mesh = requires(const Shape& s) {
+    s.mesh;
+};
 template <class Shape>
-inline constexpr bool is_bounded = is_mesh<Shape> || requires(const Shape& s) { s.bounds(); };
+inline constexpr bool is_bounded = is_mesh<Shape> || requires(const Shape& s) {
+    s.bounds();
+};
 
 /// A hit with what shading needs, in world space.
 template <class L>
@@ -25,10 +29,10 @@ constexpr Ray<L> transform_ray(const Affine<R>& a, const Ray<L>& ray) {
     return {transform_point(a, ray.org), transform_vector(a, ray.dir), ray.t_min, ray.t_max};
 }
 
-/// A surface in world space. The error bound grows by the rounding of this transform and of the one by which a ray that
-/// starts here comes back (8 roundings each, of the terms' magnitudes, where 4 are due to the sums and 1 to 2 to the
-/// matrices' entries: both must be rounded true values, see inverse()). A mirroring map keeps the side on which the
-/// normal is.
+/// A surface in world space. The error bound grows by the rounding of this transform and of the one by which
+/// a ray that starts here comes back (8 roundings each, of the terms' magnitudes, where 4 are due to the sums
+/// and 1 to 2 to the matrices' entries: both must be rounded true values, see inverse()). A mirroring map
+/// keeps the side on which the normal is.
 template <class R, class L>
 constexpr Surface<L> transform_surface(const Affine<R>& world_from_object, const Affine<R>& object_from_world,
                                        const Surface<L>& object) {
@@ -37,8 +41,7 @@ constexpr Surface<L> transform_surface(const Affine<R>& world_from_object, const
                               absolute(lanes<L>(translation_of(world_from_object)));
     const Vec3<L> way_back = transform_magnitude(object_from_world, magnitude) +
                              absolute(lanes<L>(translation_of(object_from_world)));
-    const Vec3<L> error =
-        transform_magnitude(world_from_object, object.error + way_back * u) + magnitude * u;
+    const Vec3<L> error = transform_magnitude(world_from_object, object.error + way_back * u) + magnitude * u;
     return {transform_point(world_from_object, object.point), error,
             normalize(transform_normal(object_from_world, object.normal)),
             normalize(transform_normal(object_from_world, object.shading_normal))};
@@ -56,9 +59,10 @@ ShapeHit<L> intersect_shape(const S& scene, const Shape& shape, const Ray<L>& ra
 }
 
 template <class S, class Shape, class L>
-Surface<L> shape_surface(const S& scene, const Shape& shape, const Ray<L>& ray, const ShapeHit<L>& hit) {
+Surface<L> shape_surface(const S& scene, const Shape& shape, const Ray<L>& ray, const ShapeHit<L>& hit,
+                         [[maybe_unused]] const MaskOf<L>& needed) {
     if constexpr (is_mesh<Shape>) {
-        return mesh_surface<S::traits.smooth_normals>(scene.meshes[shape.mesh], ray, hit);
+        return mesh_surface<S::traits.smooth_normals>(scene.meshes[shape.mesh], ray, hit, needed);
     } else {
         return shape.surface(ray, hit);
     }
@@ -82,20 +86,24 @@ ShapeHit<L> intersect(const S& scene, const Bare<Shape>& primitive, const Ray<L>
 }
 template <bool AnyHit, class S, class Shape, class R, class L>
 ShapeHit<L> intersect(const S& scene, const Placed<Shape, R>& primitive, const Ray<L>& ray) {
-    return detail::intersect_shape<AnyHit>(scene, primitive.shape, transform_ray(primitive.object_from_world, ray));
+    return detail::intersect_shape<AnyHit>(scene, primitive.shape,
+                                           transform_ray(primitive.object_from_world, ray));
 }
 
+/// The surface where the lanes in `needed` have hit this primitive; the others get anything.
 template <class S, class Shape, class L>
-WorldSurface<L> surface_of(const S& scene, const Bare<Shape>& primitive, const Ray<L>& ray, const ShapeHit<L>& hit) {
-    const Surface<L> surface = detail::shape_surface(scene, primitive.shape, ray, hit);
+WorldSurface<L> surface_of(const S& scene, const Bare<Shape>& primitive, const Ray<L>& ray,
+                           const ShapeHit<L>& hit, const MaskOf<L>& needed) {
+    const Surface<L> surface = detail::shape_surface(scene, primitive.shape, ray, hit, needed);
     return {surface, surface.point};
 }
 template <class S, class Shape, class R, class L>
 WorldSurface<L> surface_of(const S& scene, const Placed<Shape, R>& primitive, const Ray<L>& ray,
-                           const ShapeHit<L>& hit) {
+                           const ShapeHit<L>& hit, const MaskOf<L>& needed) {
     const Surface<L> object = detail::shape_surface(
-        scene, primitive.shape, transform_ray(primitive.object_from_world, ray), hit);
-    return {transform_surface(primitive.world_from_object, primitive.object_from_world, object), object.point};
+        scene, primitive.shape, transform_ray(primitive.object_from_world, ray), hit, needed);
+    return {transform_surface(primitive.world_from_object, primitive.object_from_world, object),
+            object.point};
 }
 
 template <class S, class Shape>

@@ -4,8 +4,8 @@
 
 namespace scc::runtime {
 
-/// org + t dir for t in [t_min, t_max]. `dir` has any length other than 0: t is shared between object and world space
-/// (L13).
+/// org + t dir for t in [t_min, t_max]. `dir` has any length other than 0: t is shared between object and
+/// world space (L13).
 template <class L>
 struct Ray {
     Vec3<L> org;
@@ -21,8 +21,9 @@ struct ShapeHit {
     IndexOf<L> part{};
 };
 
-/// A hit in detail, in one space. `error` bounds, per component, how far `point` may be from the surface and from
-/// where the shape's `intersect` will find it to be when a ray starts there; at least 2 roundings of `point` itself.
+/// A hit in detail, in one space. `error` bounds, per component, how far `point` may be from the surface and
+/// from where the shape's `intersect` will find it to be when a ray starts there; at least 2 roundings of
+/// `point` itself.
 template <class L>
 struct Surface {
     Vec3<L> point;
@@ -44,10 +45,10 @@ constexpr L first_in_range(const Ray<L>& ray, const L& near, const L& far) {
     return choose((t >= ray.t_min) & (t <= ray.t_max), t, infinity<L>());
 }
 
-/// Where a ray that leaves the surface in the direction `dir` starts: off the surface by twice the bound, along the
-/// geometric normal, on the side that the ray goes to. (After "Managing Rounding Error" in Pharr, Jakob, Humphreys,
-/// Physically Based Rendering; twice the bound instead of their stepping to the next float, which the rounding of the
-/// sum cannot undo, since the bound is at least 2 roundings of the point.)
+/// Where a ray that leaves the surface in the direction `dir` starts: off the surface by twice the bound,
+/// along the geometric normal, on the side that the ray goes to. (After "Managing Rounding Error" in Pharr,
+/// Jakob, Humphreys, Physically Based Rendering; twice the bound instead of their stepping to the next float,
+/// which the rounding of the sum cannot undo, since the bound is at least 2 roundings of the point.)
 template <class L>
 constexpr Vec3<L> start_off(const Surface<L>& surface, const Vec3<L>& dir) {
     const L distance = 2 * dot(absolute(surface.normal), surface.error);
@@ -55,8 +56,8 @@ constexpr Vec3<L> start_off(const Surface<L>& surface, const Vec3<L>& dir) {
     return surface.point + side * surface.normal;
 }
 
-/// The smallest t of a ray that starts off a surface. Where a surface's equation is exact in zero (a plane through the
-/// origin), the bound is 0 and the ray starts on the surface, at t = 0 exactly.
+/// The smallest t of a ray that starts off a surface. Where a surface's equation is exact in zero (a plane
+/// through the origin), the bound is 0 and the ray starts on the surface, at t = 0 exactly.
 template <class L>
 constexpr L spawned_t_min() {
     return L(std::numeric_limits<RealOf<L>>::min());

@@ -16,8 +16,8 @@ struct RenderRequest {
     RenderSettings settings;
     Crop crop;       ///< within the picture; the image has the crop's size
     int threads = 1; ///< at least 1
-    /// Called from one thread at a time with the part that is done, 0..1, a few times a second at most. Returning
-    /// false ends the render early; the image is then incomplete.
+    /// Called from one thread at a time with the part that is done, 0..1, a few times a second at most.
+    /// Returning false ends the render early; the image is then incomplete.
     std::function<bool(double)> progress;
 };
 

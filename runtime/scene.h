@@ -18,29 +18,30 @@
 
 namespace scc::runtime {
 
-/// What a scene needs. A kernel compiled for a scene contains nothing else; the generic renderer uses `everything`.
+/// What a scene needs. A kernel compiled for a scene contains nothing else; the generic renderer uses
+/// `everything`.
 struct SceneTraits {
     std::uint32_t bare_shapes = 0;   ///< bit per row of Shapes: present without a transform
     std::uint32_t placed_shapes = 0; ///< bit per row of Shapes: present with a transform
     bool point_lights = false;
     bool directional_lights = false;
-    bool attenuation = false;      ///< some point light has kl or kq other than 0, or kc other than 1
+    bool attenuation = false;       ///< some point light has kl or kq other than 0, or kc other than 1
     bool separate_specular = false; ///< some light has Is other than Id
-    bool specular = false;         ///< some material has a highlight
+    bool specular = false;          ///< some material has a highlight
     bool emission = false;
     bool reflection = false;
-    bool two_sided = false;        ///< some shape has a back material of its own
-    bool functions = false;        ///< some material field is a per-point function
-    bool smooth_normals = false;   ///< some triangle or mesh has vertex normals
+    bool two_sided = false;      ///< some shape has a back material of its own
+    bool functions = false;      ///< some material field is a per-point function
+    bool smooth_normals = false; ///< some triangle or mesh has vertex normals
     bool shadows = false;
-    bool accelerator = false;      ///< enough bounded shapes that a hierarchy over them pays
+    bool accelerator = false; ///< enough bounded shapes that a hierarchy over them pays
     bool perspective = false;
     bool orthographic = false;
 
     friend constexpr bool operator==(const SceneTraits&, const SceneTraits&) = default;
 };
 
-inline constexpr SceneTraits everything{~0U, ~0U, true, true, true, true, true, true,
+inline constexpr SceneTraits everything{~0U,  ~0U,  true, true, true, true, true, true,
                                         true, true, true, true, true, true, true, true};
 
 /// What every shape in a scene carries.
@@ -158,8 +159,8 @@ struct SceneBase {
 ///             switch (index) {
 ///             case 0: {
 ///                 const L v0 = s.p.x;
-///                 const L v1 = round_down(v0);  // one statement per node, in the order of ir::Function::nodes
-///                 return {v1, v1, v1};
+///                 const L v1 = round_down(v0);  // one statement per node, in the order of
+///                 ir::Function::nodes return {v1, v1, v1};
 ///             }
 ///             default: return {};
 ///             }
@@ -168,8 +169,8 @@ struct SceneBase {
 ///         Accelerator accelerator;         // only with traits.accelerator: filled by prepare(scene)
 ///     };
 ///
-/// Tables that are absent are left out; tables too large for constants may be std::vector members. Every table is in
-/// source order (Tag::id ascending), as the generic scene has it; both then draw the same bits.
+/// Tables that are absent are left out; tables too large for constants may be std::vector members. Every
+/// table is in source order (Tag::id ascending), as the generic scene has it; both then draw the same bits.
 template <class S>
 concept SceneModel = requires(const S& s, const SurfacePoint<typename S::Real>& point) {
     { S::traits } -> std::convertible_to<SceneTraits>;

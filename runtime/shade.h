@@ -18,7 +18,8 @@ void for_each_light(const Table& table, F&& f) {
     if constexpr (size > 0 && size <= unrolled_lights) {
         [&]<std::size_t... i>(std::index_sequence<i...>) {
             (f(table[i]), ...);
-        }(std::make_index_sequence<size>{});
+        }
+        (std::make_index_sequence<size>{});
     } else {
         for (const auto& light : table) {
             f(light);
@@ -26,113 +27,153 @@ void for_each_light(const Table& table, F&& f) {
     }
 }
 
-template <class R>
-bool is_black(const Rgb<R>& c) {
-    return c.r == 0 && c.g == 0 && c.b == 0;
+template <class L>
+MaskOf<L> is_black(const Rgb<L>& c) {
+    return (c.r == 0) & (c.g == 0) & (c.b == 0);
 }
 
-/// Where a ray met a surface, as its shading needs it.
-template <class R>
+/// Where rays met surfaces, as their shading needs it.
+template <class L>
 struct Encounter {
-    Surface<R> surface;
-    SurfacePoint<R> point;
-    Vec3<R> normal;    ///< m: shading normal that faces the viewer
-    Vec3<R> to_viewer; ///< v, unit
-    std::uint32_t material = 0;
+    Surface<L> surface;
+    SurfacePoint<L> point;
+    Vec3<L> normal;    ///< m: shading normal that faces the viewer
+    Vec3<L> to_viewer; ///< v, unit
+    IndexOf<L> material{0U};
+};
+
+/// A material's fields at a point.
+template <class L>
+struct Reflectances {
+    Rgb<L> ambient, diffuse, specular, emission, reflect;
+    L shininess{1};
 };
 
 /// Strictly between: what the light itself lies on does not shadow it, up to the rounding of t.
 template <class R>
 inline constexpr R before_the_light = 1 - 32 * std::numeric_limits<R>::epsilon();
 
-template <SceneModel S>
+template <SceneModel S, class L>
 class Shader {
 public:
     using R = typename S::Real;
+    using Mask = MaskOf<L>;
 
     Shader(const S& scene, const RenderSettings& settings, RayCounts& counts)
         : scene_(scene), depth_(settings.depth), shadows_(settings.shadows), counts_(counts) {}
 
-    /// What comes from along the ray. Mirrors are followed one after the other, each weighing what is behind it; after
-    /// the last bounce a mirror shows black.
-    Rgb<R> radiance(Ray<R> ray) const {
-        Rgb<R> sum{0, 0, 0};
-        Rgb<R> weight{1, 1, 1};
+    /// What comes from along each ray of the active lanes. Mirrors are followed one after the other, each
+    /// weighing what is behind it; after the last bounce a mirror shows black.
+    Rgb<L> radiance(Ray<L> ray, Mask active) const {
+        Rgb<L> sum{L(0), L(0), L(0)};
+        Rgb<L> weight{L(1), L(1), L(1)};
         for (int bounce = 0;; ++bounce) {
-            const Hit<R> hit = closest_hit(scene_, ray);
-            if (!hit) {
-                return sum + weight * scene_.background;
-            }
-            const Encounter<R> at = encounter(ray, hit);
-            const Phong<R>& material = scene_.materials[at.material];
-            sum = sum + weight * illumination(at, material);
-            if constexpr (S::traits.reflection) {
-                if (bounce >= depth_) {
-                    return sum;
-                }
-                const Rgb<R> reflectivity = value(material.reflect, at.point);
-                if (is_black(reflectivity)) {
-                    return sum;
-                }
-                weight = weight * reflectivity;
-                const Vec3<R> mirrored = reflect(ray.dir, at.normal);
-                ray = {start_off(at.surface, mirrored), mirrored, spawned_t_min<R>(), infinity<R>()};
-                ++counts_.reflected;
-            } else {
+            ray.t_max = choose(active, ray.t_max, -infinity<L>());
+            const Hit<L> hit = closest_hit(scene_, ray);
+            const Mask missed = active & (hit.kind == IndexOf<L>(no_kind));
+            sum = choose(missed, sum + weight * lanes<L>(scene_.background), sum);
+            active = active & !missed;
+            if (none(active)) {
                 return sum;
             }
+            const Encounter<L> at = encounter(ray, hit, active);
+            const Reflectances<L> material = reflectances(at, active);
+            sum = choose(active, sum + weight * illumination(at, material, active), sum);
+            if constexpr (!S::traits.reflection) {
+                return sum;
+            }
+            active = active & !is_black(material.reflect);
+            if (bounce >= depth_ || none(active)) {
+                return sum;
+            }
+            weight = weight * material.reflect;
+            const Vec3<L> mirrored = reflect(ray.dir, at.normal);
+            ray = {start_off(at.surface, mirrored), mirrored, spawned_t_min<L>(), infinity<L>()};
+            counts_.reflected += count_lanes(active);
         }
     }
 
 private:
-    Rgb<R> value(const Varying<Rgb<R>>& field, const SurfacePoint<R>& point) const {
+    /// The normal faces the viewer and the material is chosen by the side of the geometric normal that the
+    /// ray is on.
+    Encounter<L> encounter(const Ray<L>& ray, const Hit<L>& hit, const Mask& active) const {
+        Encounter<L> result;
+        for_each_primitive(scene_, hit, active, [&](const auto& primitive, const Mask& here) {
+            const WorldSurface<L> world = surface_of(scene_, primitive, ray, hit.shape, here);
+            const Surface<L>& surface = world.surface;
+            const Mask back = dot(surface.normal, ray.dir) > 0;
+            const Vec3<L> normal = choose(back, -surface.shading_normal, surface.shading_normal);
+            const Sides& sides = primitive.tag.sides;
+            using Index = IndexOf<L>;
+            const Index material = S::traits.two_sided ? choose(back, Index(sides.back), Index(sides.front))
+                                                       : Index(sides.front);
+            if (all(here)) {
+                result.surface = surface;
+                result.point.p = world.object_point;
+                result.normal = normal;
+                result.material = material;
+                return;
+            }
+            result.surface.point = choose(here, surface.point, result.surface.point);
+            result.surface.error = choose(here, surface.error, result.surface.error);
+            result.surface.normal = choose(here, surface.normal, result.surface.normal);
+            result.point.p = choose(here, world.object_point, result.point.p);
+            result.normal = choose(here, normal, result.normal);
+            result.material = choose(here, material, result.material);
+        });
+        result.point.world = result.surface.point;
+        result.point.n = result.surface.normal;
+        result.to_viewer = -normalize(ray.dir);
+        return result;
+    }
+
+    Rgb<L> value(const Varying<Rgb<R>>& field, const SurfacePoint<L>& point) const {
         if constexpr (S::traits.functions) {
             if (field.function != no_function) {
                 return scene_.color_function(field.function, point);
             }
         }
-        return field.value;
+        return lanes<L>(field.value);
     }
-    R value(const Varying<R>& field, const SurfacePoint<R>& point) const {
+    L value(const Varying<R>& field, const SurfacePoint<L>& point) const {
         if constexpr (S::traits.functions) {
             if (field.function != no_function) {
                 return scene_.number_function(field.function, point);
             }
         }
-        return field.value;
+        return L(field.value);
     }
 
-    /// The normal faces the viewer and the material is chosen by the side of the geometric normal that the ray is on.
-    Encounter<R> encounter(const Ray<R>& ray, const Hit<R>& hit) const {
-        Encounter<R> result;
-        with_primitive(scene_, hit, [&](const auto& primitive) {
-            const WorldSurface<R> world = surface_of(scene_, primitive, ray, hit.shape);
-            const bool back = dot(world.surface.normal, ray.dir) > 0;
-            result.surface = world.surface;
-            result.point = {world.object_point, world.surface.point, world.surface.normal};
-            result.normal = back ? -world.surface.shading_normal : world.surface.shading_normal;
-            result.material = S::traits.two_sided && back ? primitive.tag.sides.back : primitive.tag.sides.front;
-        });
-        result.to_viewer = -normalize(ray.dir);
+    Reflectances<L> reflectances(const Encounter<L>& at, Mask among) const {
+        Reflectances<L> result;
+        while (any(among)) {
+            const std::uint32_t index = lane(at.material, first_lane(among));
+            const Mask here = among & (at.material == IndexOf<L>(index));
+            const Phong<R>& material = scene_.materials[index];
+            result.ambient = choose(here, value(material.ambient, at.point), result.ambient);
+            result.diffuse = choose(here, value(material.diffuse, at.point), result.diffuse);
+            if constexpr (S::traits.emission) {
+                result.emission = choose(here, value(material.emission, at.point), result.emission);
+            }
+            if constexpr (S::traits.specular) {
+                result.specular = choose(here, value(material.specular, at.point), result.specular);
+                result.shininess = choose(here, value(material.shininess, at.point), result.shininess);
+            }
+            if constexpr (S::traits.reflection) {
+                result.reflect = choose(here, value(material.reflect, at.point), result.reflect);
+            }
+            among = among & !here;
+        }
         return result;
     }
 
-    Rgb<R> illumination(const Encounter<R>& at, const Phong<R>& material) const {
-        const SurfacePoint<R>& point = at.point;
-        Rgb<R> sum = scene_.ambient * value(material.ambient, point);
+    Rgb<L> illumination(const Encounter<L>& at, const Reflectances<L>& material, const Mask& active) const {
+        Rgb<L> sum = lanes<L>(scene_.ambient) * material.ambient;
         if constexpr (S::traits.emission) {
-            sum = sum + value(material.emission, point);
+            sum = sum + material.emission;
         }
-        const Rgb<R> diffuse = value(material.diffuse, point);
-        Rgb<R> specular{0, 0, 0};
-        R shininess = 1;
-        if constexpr (S::traits.specular) {
-            specular = value(material.specular, point);
-            shininess = is_black(specular) ? R(1) : value(material.shininess, point);
-        }
-        const auto add_light = [&](const auto& light) {
-            add(sum, light, at, diffuse, specular, shininess);
-        };
+        const Mask shiny = active & !is_black(material.specular);
+        const auto add_light = [&](const auto& light) { add(sum, light, at, material, active, shiny); };
         if constexpr (S::traits.point_lights) {
             for_each_light(scene_.point_lights, add_light);
         }
@@ -143,19 +184,25 @@ private:
     }
 
     template <class Light>
-    void add(Rgb<R>& sum, const Light& light, const Encounter<R>& at, const Rgb<R>& diffuse, const Rgb<R>& specular,
-             R shininess) const {
-        const LightAt<R> seen = light_at(light, at.surface.point);
-        const R cosine = dot(seen.to_light, at.normal);
-        if (!(cosine > 0) || is_shadowed(light, at.surface)) {
+    void add(Rgb<L>& sum, const Light& light, const Encounter<L>& at, const Reflectances<L>& material,
+             const Mask& active, [[maybe_unused]] const Mask& shiny) const {
+        const LightAt<L> seen = light_at(light, at.surface.point);
+        const L cosine = dot(seen.to_light, at.normal);
+        Mask lit = active & (cosine > 0);
+        if (none(lit)) {
             return;
         }
-        Rgb<R> reflected = light.diffuse * diffuse * cosine;
+        lit = lit & !shadowed(light, at.surface, lit);
+        if (none(lit)) {
+            return;
+        }
+        Rgb<L> reflected = lanes<L>(light.diffuse) * material.diffuse * cosine;
         if constexpr (S::traits.specular) {
-            if (!is_black(specular)) {
-                const Rgb<R>& color = S::traits.separate_specular ? light.specular : light.diffuse;
-                reflected = reflected +
-                            color * specular * highlight(at.normal, seen.to_light, at.to_viewer, shininess);
+            const Mask highlit = lit & shiny;
+            if (any(highlit)) {
+                const Rgb<L> color = lanes<L>(S::traits.separate_specular ? light.specular : light.diffuse);
+                const L strength = highlight(at.normal, seen.to_light, at.to_viewer, material.shininess);
+                reflected = choose(highlit, reflected + color * material.specular * strength, reflected);
             }
         }
         if constexpr (S::traits.attenuation && requires { light.kc; }) {
@@ -163,28 +210,32 @@ private:
                 reflected = reflected / attenuation(light, seen.distance);
             }
         }
-        sum = sum + reflected;
+        sum = choose(lit, sum + reflected, sum);
     }
 
-    /// L14: a feeler that starts off the surface.
+    /// L14: feelers that start off the surface, for the lanes in `asking`.
     template <class Light>
-    bool is_shadowed(const Light& light, const Surface<R>& surface) const {
+    Mask shadowed(const Light& light, const Surface<L>& surface, const Mask& asking) const {
         if constexpr (S::traits.shadows) {
             if (!shadows_) {
-                return false;
+                return Mask(false);
             }
-            ++counts_.shadow;
-            return any_hit(scene_, feeler(light, surface));
+            counts_.shadow += count_lanes(asking);
+            Ray<L> ray = feeler(light, surface);
+            ray.t_max = choose(asking, ray.t_max, -infinity<L>());
+            return any_hit(scene_, ray);
         } else {
-            return false;
+            return Mask(false);
         }
     }
-    static Ray<R> feeler(const PointLight<R>& light, const Surface<R>& surface) {
-        const Vec3<R> org = start_off(surface, light.position - surface.point);
-        return {org, light.position - org, spawned_t_min<R>(), before_the_light<R>};
+    static Ray<L> feeler(const PointLight<R>& light, const Surface<L>& surface) {
+        const Vec3<L> position = lanes<L>(light.position);
+        const Vec3<L> org = start_off(surface, position - surface.point);
+        return {org, position - org, spawned_t_min<L>(), L(before_the_light<R>)};
     }
-    static Ray<R> feeler(const DirectionalLight<R>& light, const Surface<R>& surface) {
-        return {start_off(surface, light.to_light), light.to_light, spawned_t_min<R>(), infinity<R>()};
+    static Ray<L> feeler(const DirectionalLight<R>& light, const Surface<L>& surface) {
+        const Vec3<L> to_light = lanes<L>(light.to_light);
+        return {start_off(surface, to_light), to_light, spawned_t_min<L>(), infinity<L>()};
     }
 
     const S& scene_;

@@ -26,8 +26,8 @@ struct Background {
 };
 
 struct CompareOptions {
-    std::optional<Background> reference_background; ///< coverage is compared if both are given
-    std::optional<Background> other_background;
+    std::optional<Background> reference_background = std::nullopt; ///< coverage is compared if both are given
+    std::optional<Background> other_background = std::nullopt;
     double edge_contrast = 0.005; ///< see `edge_mask`
     std::vector<double> thresholds{1e-6, 1e-5, 2e-5, 1e-4, 1e-3, 1e-2};
 };

@@ -34,7 +34,8 @@ bool some_function(const ir::Scene& scene, std::uint32_t material, Wanted wanted
 
 template <class Wanted>
 bool some_function(const ir::Scene& scene, const ir::Object& object, Wanted wanted) {
-    return some_function(scene, object.sides.front, wanted) || some_function(scene, object.sides.back, wanted);
+    return some_function(scene, object.sides.front, wanted) ||
+           some_function(scene, object.sides.back, wanted);
 }
 
 bool reads_p(const ir::Function& function) {
@@ -85,7 +86,8 @@ public:
     }
 
     double cut_off(int bounces) const {
-        const bool complete = bounces == scene_.settings.depth || (count_ == 1 && !sees_itself_) || count_ == 0;
+        const bool complete =
+            bounces == scene_.settings.depth || (count_ == 1 && !sees_itself_) || count_ == 0;
         return complete ? 0 : std::pow(std::min(strongest_, 1.0), bounces + 1);
     }
 
@@ -96,11 +98,14 @@ private:
             return;
         }
         ++count_;
-        const MirrorView view = std::visit([](const auto& shape) { return sees_itself(shape); }, object.shape);
+        const MirrorView view =
+            std::visit([](const auto& shape) { return sees_itself(shape); }, object.shape);
         sees_itself_ |= (front && view.front) || (back && view.back);
         strongest_ = std::max({strongest_, strength(object.sides.front), strength(object.sides.back)});
     }
-    bool reflects(std::uint32_t material) const { return is_present(scene_.materials[material].phong.reflect); }
+    bool reflects(std::uint32_t material) const {
+        return is_present(scene_.materials[material].phong.reflect);
+    }
     double strength(std::uint32_t material) const {
         const auto& reflect = scene_.materials[material].phong.reflect;
         return reflect.function != runtime::no_function

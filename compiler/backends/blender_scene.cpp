@@ -46,8 +46,9 @@ private:
     void write_camera() {
         const runtime::Camera<double>& camera = scene_.camera;
         const bool perspective = camera.projection == runtime::Projection::perspective;
-        out_.line("CAMERA = dict(type=\"{}\", eye={}, right={}, up={}, back={},", perspective ? "PERSP" : "ORTHO",
-                  python(camera.eye), python(camera.u), python(camera.v), python(camera.n));
+        out_.line("CAMERA = dict(type=\"{}\", eye={}, right={}, up={}, back={},",
+                  perspective ? "PERSP" : "ORTHO", python(camera.eye), python(camera.u), python(camera.v),
+                  python(camera.n));
         out_.line("              half_height={}, shift=({}, {}))", python(camera.half_height),
                   python(camera.shift_x), python(camera.shift_y));
     }
@@ -65,7 +66,8 @@ private:
     static std::string place(const runtime::PointLight<double>& light) {
         std::string text = "type=\"POINT\", position=" + python(light.position);
         if (light.kc != 1 || light.kl != 0 || light.kq != 0) {
-            text += fmt::format(", attenuation=({}, {}, {})", python(light.kc), python(light.kl), python(light.kq));
+            text += fmt::format(", attenuation=({}, {}, {})", python(light.kc), python(light.kl),
+                                python(light.kq));
         }
         return text;
     }
@@ -113,7 +115,8 @@ private:
         out_.indent();
         for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
             if (needs_.materials[i]) {
-                out_.line("{}: dict({}),", python(scene_.materials[i].name), fields(scene_.materials[i].phong));
+                out_.line("{}: dict({}),", python(scene_.materials[i].name),
+                          fields(scene_.materials[i].phong));
             }
         }
         out_.dedent();
@@ -189,13 +192,13 @@ private:
         return fmt::format("type=\"plane\", normal={}, offset={}", python(p.normal), python(p.offset));
     }
     static std::string described(const runtime::Cylinder<double>& c) {
-        return fmt::format("type=\"cylinder\", start={}, end={}, radius={}, caps={}", python(c.from), python(c.to),
-                           python(c.radius), c.caps ? "True" : "False");
+        return fmt::format("type=\"cylinder\", start={}, end={}, radius={}, caps={}", python(c.from),
+                           python(c.to), python(c.radius), c.caps ? "True" : "False");
     }
     static std::string described(const runtime::Disc<double>& d) {
         const std::string hole = d.hole > 0 ? ", hole=" + python(d.hole) : "";
-        return fmt::format("type=\"disc\", center={}, normal={}, radius={}{}", python(d.center), python(d.normal),
-                           python(d.radius), hole);
+        return fmt::format("type=\"disc\", center={}, normal={}, radius={}{}", python(d.center),
+                           python(d.normal), python(d.radius), hole);
     }
     static std::string described(const runtime::Triangle<double>& t) {
         const auto triple = [](const std::array<runtime::Vec3<double>, 3>& v) {

@@ -1,6 +1,5 @@
 #include "compiler/backends/cpp.h"
 
-#include "compiler/backends/render.h"
 #include "compiler/backends/tables.h"
 #include "compiler/ir/traits.h"
 #include "compiler/writer.h"
@@ -355,7 +354,7 @@ void Emitter<R>::main_function() {
     out_.raw_line("int main(int argc, char** argv) {");
     out_.indent();
     std::string features;
-    for (const std::string& feature : feature_names(scene_)) {
+    for (const std::string& feature : ir::feature_names(scene_.traits)) {
         features += quote(Language::cpp, feature) + ", ";
     }
     out_.line("static constexpr const char* features[] = {{{}nullptr}};", features);

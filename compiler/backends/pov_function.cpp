@@ -16,9 +16,6 @@ namespace {
 using ir::Node;
 using ir::Op;
 
-/// Reflectances and emissions beyond this are cut where a function's own bounds are wider.
-constexpr double largest_value = 8;
-
 /// offset + slope t
 struct Line {
     double offset = 0, slope = 0;
@@ -181,13 +178,11 @@ const PovFunctions::Declared& PovFunctions::declare(std::int32_t index, std::uin
 }
 
 PovFunctions::Scaled PovFunctions::scaled(std::int32_t index, std::uint32_t node, std::string_view suffix,
-                                          const InputRanges& inputs,
-                                          const runtime::Affine<double>* world_from_object,
-                                          Outcome& outcome) {
+                                          const Place& place, Outcome& outcome) {
     const ir::Function& function = functions_[static_cast<std::size_t>(index)];
-    const Range whole = node_ranges(function, inputs)[node];
-    const Range cut{std::clamp(whole.min, -largest_value, largest_value),
-                    std::clamp(whole.max, -largest_value, largest_value)};
+    const Range whole = node_ranges(function, place.inputs)[node];
+    const Range cut{std::clamp(whole.min, -place.largest, place.largest),
+                    std::clamp(whole.max, -place.largest, place.largest)};
     const Declared& declared = declare(index, node, suffix);
     if (declared.name.empty()) {
         outcome = {Fidelity::dropped, fmt::format("drawn with its mean value: {}", declared.obstacle), 0};
@@ -201,11 +196,11 @@ PovFunctions::Scaled PovFunctions::scaled(std::int32_t index, std::uint32_t node
                 "the function's bounds are not known; values outside {}..{} are cut, by up to the bound "
                 "at 4096 sampled points",
                 number(cut.min), number(cut.max)),
-            std::max(outcome.bound, excess(function, node, inputs, cut))};
+            std::max(outcome.bound, excess(function, node, place.inputs, cut))};
     }
     std::string arguments = "x, y, z";
-    if (declared.reads_world && world_from_object != nullptr) {
-        const std::string world = map_point(*world_from_object);
+    if (declared.reads_world && place.world_from_object != nullptr) {
+        const std::string world = map_point(*place.world_from_object);
         arguments = declared.reads_p ? "x, y, z, " + world : world;
     } else if (declared.reads_world && declared.reads_p) {
         arguments = "x, y, z, x, y, z";
@@ -219,15 +214,14 @@ PovFunctions::Scaled PovFunctions::scaled(std::int32_t index, std::uint32_t node
                              : Scaled{"0", cut.min, cut.min};
 }
 
-std::pair<Paint, Outcome> PovFunctions::paint(std::int32_t index, const InputRanges& inputs,
-                                              const runtime::Affine<double>* world_from_object) {
+std::pair<Paint, Outcome> PovFunctions::paint(std::int32_t index, const Place& place) {
     const ir::Function& function = functions_[static_cast<std::size_t>(index)];
     Paint paint;
     paint.function = index;
     Outcome outcome{Fidelity::exact, "as an SDL function", 0};
     std::vector<double> middle;
     if (const auto one = one_variable(function)) {
-        const Scaled t = scaled(index, one->t, "", inputs, world_from_object, outcome);
+        const Scaled t = scaled(index, one->t, "", place, outcome);
         std::vector<double> low, high;
         for (const Line& line : one->lines) {
             low.push_back(line.offset + line.slope * t.low);
@@ -239,8 +233,7 @@ std::pair<Paint, Outcome> PovFunctions::paint(std::int32_t index, const InputRan
     } else {
         for (std::size_t i = 0; i < function.results.size(); ++i) {
             static constexpr std::string_view suffixes[] = {"_red", "_green", "_blue"};
-            const Scaled t =
-                scaled(index, function.results[i], suffixes[i], inputs, world_from_object, outcome);
+            const Scaled t = scaled(index, function.results[i], suffixes[i], place, outcome);
             std::vector<double> low(3), high(3);
             low[i] = t.low;
             high[i] = t.high;

@@ -43,10 +43,14 @@ public:
     PovFunctions(const std::vector<ir::Function>& functions, Writer& out)
         : functions_(functions), out_(out) {}
 
-    /// The function as a paint over points whose inputs lie in `inputs`. A texture's x, y, z are the
-    /// function's p and also its world point, unless `world_from_object` tells how to get there.
-    std::pair<Paint, Outcome> paint(std::int32_t function, const InputRanges& inputs,
-                                    const runtime::Affine<double>* world_from_object);
+    /// Where a function is used.
+    struct Place {
+        InputRanges inputs;
+        double largest = 0; ///< values beyond are cut where the function's own bounds are wider
+        /// From a texture's x, y, z, which are the function's p; null: they are its world point as well.
+        const runtime::Affine<double>* world_from_object = nullptr;
+    };
+    std::pair<Paint, Outcome> paint(std::int32_t function, const Place& place);
 
 private:
     struct Declared {
@@ -60,8 +64,7 @@ private:
     };
 
     const Declared& declare(std::int32_t function, std::uint32_t node, std::string_view suffix);
-    Scaled scaled(std::int32_t function, std::uint32_t node, std::string_view suffix,
-                  const InputRanges& inputs, const runtime::Affine<double>* world_from_object,
+    Scaled scaled(std::int32_t function, std::uint32_t node, std::string_view suffix, const Place& place,
                   Outcome& outcome);
 
     const std::vector<ir::Function>& functions_;

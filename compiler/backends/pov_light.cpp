@@ -68,11 +68,12 @@ private:
         note_specular(light, sun.diffuse, sun.specular);
     }
 
-    /// A shadowless light gives no highlight and, despite its name, obeys `projected_through`: it then shines where an
-    /// object stands in the way. So Id - Is everywhere, less Id - Is in the shadows, goes on top of Is.
+    /// A shadowless light gives no highlight and, despite its name, obeys `projected_through`: it then shines
+    /// where an object stands in the way. So Id - Is everywhere, less Id - Is in the shadows, goes on top of
+    /// Is.
     void write(const Source& source, double gain, const Rgb<double>& diffuse, const Rgb<double>& specular) {
-        const Rgb<double> both = gain * 1.0 * (highlights_ ? specular : diffuse);
-        const Rgb<double> rest = gain * (diffuse + specular * -1.0);
+        const Rgb<double> both = (highlights_ ? specular : diffuse) * gain;
+        const Rgb<double> rest = (diffuse + specular * -1.0) * gain;
         if (!black(both)) {
             write(source, both, "");
         }
@@ -87,15 +88,17 @@ private:
     }
 
     void write(const Source& source, const Rgb<double>& color, const std::string& kind) {
-        out_.line("light_source {{ {} rgb scc_exposure*{}{}{} }}", source.head, pov_color(color), source.tail, kind);
+        out_.line("light_source {{ {} rgb scc_exposure*{}{}{} }}", source.head, pov_color(color), source.tail,
+                  kind);
     }
 
-    void note(const ir::Light& light, std::string feature, Fidelity fidelity, std::string how, double bound = 0) {
+    void note(const ir::Light& light, std::string feature, Fidelity fidelity, std::string how,
+              double bound = 0) {
         ledger_.push_back({fidelity, std::move(feature), light.name, light.span, std::move(how), bound});
     }
 
-    void note_attenuation(const ir::Light& light, const runtime::PointLight<double>& point, const FadeSum& sum,
-                          const DistanceRange& range) {
+    void note_attenuation(const ir::Light& light, const runtime::PointLight<double>& point,
+                          const FadeSum& sum, const DistanceRange& range) {
         if (point.kl == 0 && point.kq == 0 && point.kc == 1) {
             return;
         }
@@ -105,16 +108,18 @@ private:
             return;
         }
         note(light, "point_light attenuation", Fidelity::approximated,
-             fmt::format("sum of {} lights with fade_distance and fade_power, fitted for distances from {:.6g} to "
-                         "{:.6g}; bound relative to the light's intensity at the nearer",
-                         sum.lights.size(), range.near, range.far),
+             fmt::format(
+                 "sum of {} lights with fade_distance and fade_power, fitted for distances from {:.6g} to "
+                 "{:.6g}; bound relative to the light's intensity at the nearer",
+                 sum.lights.size(), range.near, range.far),
              sum.bound);
     }
 
     void note_specular(const ir::Light& light, const Rgb<double>& diffuse, const Rgb<double>& specular) {
         if (!(diffuse == specular)) {
             note(light, "light specular", Fidelity::exact,
-                 highlights_ ? "Id - Is by shadowless lights on top of Is" : "left out: no material has a highlight");
+                 highlights_ ? "Id - Is by shadowless lights on top of Is"
+                             : "left out: no material has a highlight");
         }
     }
 

@@ -38,7 +38,8 @@ struct ToPov {
     }
     PovShape operator()(const runtime::Disc<double>& d) const {
         return {"disc",
-                {fmt::format("{}, {}, {}, {}", at(d.center), pov_vector(d.normal), size(d.radius), size(d.hole))}};
+                {fmt::format("{}, {}, {}, {}", at(d.center), pov_vector(d.normal), size(d.radius),
+                             size(d.hole))}};
     }
     // POV-Ray's normal points to where the corners run clockwise.
     PovShape operator()(const runtime::Triangle<double>& t) const {
@@ -102,7 +103,8 @@ void list(Writer& out, std::string_view name, std::size_t count, Item item) {
 
 void list_vectors(Writer& out, std::string_view name, const std::vector<float>& values, float scale) {
     list(out, name, values.size() / 3, [&](std::size_t i) {
-        return fmt::format("<{}, {}, {}>", scale * values[3 * i], scale * values[3 * i + 1], scale * values[3 * i + 2]);
+        return fmt::format("<{}, {}, {}>", scale * values[3 * i], scale * values[3 * i + 1],
+                           scale * values[3 * i + 2]);
     });
 }
 

@@ -13,9 +13,9 @@ namespace scc::compiler {
 struct PovShape {
     std::string keyword;
     std::vector<std::string> lines;
-    std::string precision;     ///< why the shape is not exact, else empty
-    double bound = 0;          ///< for `precision`: relative to the shape's size
-    bool reversed = false;     ///< POV-Ray takes our front for the inside
+    std::string precision{}; ///< why the shape is not exact, else empty
+    double bound = 0;        ///< for `precision`: relative to the shape's size
+    bool reversed = false;   ///< POV-Ray takes our front for the inside
 };
 
 /// `mesh_names` holds the identifiers of the scene's meshes. Meshes are declared with their own scale.

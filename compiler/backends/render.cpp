@@ -79,26 +79,13 @@ void set_renderer(host::Drawable& drawable, const ir::Scene& scene) {
     };
 }
 
-template <class... All>
-void add_shape_names(std::vector<std::string>& names, std::uint32_t bits, const char* suffix,
-                     runtime::TypeList<All...>) {
-    std::uint32_t bit = 1;
-    const auto add = [&](std::string_view name) {
-        if ((bits & bit) != 0) {
-            names.push_back(std::string(name) + suffix);
-        }
-        bit <<= 1;
-    };
-    (add(All::name), ...);
-}
-
 } // namespace
 
 host::Drawable make_drawable(const ir::Scene& scene, Precision precision) {
     host::Drawable drawable{.scene = scene.name,
                             .precision = name_of(precision),
                             .isa = host::compiled_isa,
-                            .features = feature_names(scene),
+                            .features = ir::feature_names(scene.traits),
                             .settings = scene.settings,
                             .times_ms = {},
                             .render = {}};
@@ -111,19 +98,6 @@ host::Drawable make_drawable(const ir::Scene& scene, Precision precision) {
     const std::chrono::duration<double, std::milli> gone = std::chrono::steady_clock::now() - start;
     drawable.times_ms.emplace_back("accel", gone.count());
     return drawable;
-}
-
-std::vector<std::string> feature_names(const ir::Scene& scene) {
-    const runtime::SceneTraits& t = scene.traits;
-    std::vector<std::string> names;
-    add_shape_names(names, t.bare_shapes, "", runtime::Shapes<double>{});
-    add_shape_names(names, t.placed_shapes, " (transformed)", runtime::Shapes<double>{});
-    for (const ir::TraitFlag& flag : ir::trait_flags) {
-        if (t.*flag.member) {
-            names.emplace_back(flag.name);
-        }
-    }
-    return names;
 }
 
 } // namespace scc::compiler

@@ -84,7 +84,8 @@ void judge(RendererReport& result, const Subject& subject, double exposure) {
 }
 
 RendererReport run_native(const Subject& subject) {
-    RendererReport result{.renderer = "native"};
+    RendererReport result;
+    result.renderer = "native";
     const std::string program = (subject.folder.path() / "native").string();
     const std::string blob_name = "scene.blob";
     try {
@@ -122,7 +123,8 @@ RendererReport run_native(const Subject& subject) {
 
 RendererReport run_exported(const Subject& subject, const std::string& name, int threads,
                             double timeout_seconds) {
-    RendererReport result{.renderer = name};
+    RendererReport result;
+    result.renderer = name;
     const compiler::Exporter& exporter = *compiler::find_exporter(name);
     compiler::Ledger ledger;
     const std::filesystem::path file = subject.folder.path() / ("scene" + std::string(exporter.extension));

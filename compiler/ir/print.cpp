@@ -140,26 +140,6 @@ std::string light_text(const runtime::DirectionalLight<double>& l) {
                        text(l.diffuse), text(l.specular));
 }
 
-std::string shape_names(std::uint32_t bits) {
-    std::string names;
-    const auto add = [&]<class... All>(runtime::TypeList<All...>) {
-        std::uint32_t bit = 1;
-        ((names += (bits & bit) != 0 ? fmt::format(" {}", All::name) : "", bit <<= 1), ...);
-    };
-    add(runtime::Shapes<double>{});
-    return names.empty() ? " none" : names;
-}
-
-void print_traits(Writer& out, const runtime::SceneTraits& t) {
-    out.line("bare shapes:{}", shape_names(t.bare_shapes));
-    out.line("placed shapes:{}", shape_names(t.placed_shapes));
-    std::string needs;
-    for (const TraitFlag& flag : trait_flags) {
-        needs += t.*flag.member ? fmt::format(" {}", flag.name) : "";
-    }
-    out.line("needs:{}", needs);
-}
-
 } // namespace
 
 std::string print(const Scene& scene) {
@@ -174,7 +154,11 @@ std::string print(const Scene& scene) {
              text(c.u), text(c.v), text(c.n), c.half_height, c.shift_x, c.shift_y);
     out.line("ambient = {}", text(scene.ambient));
     out.line("background = {}", text(scene.background));
-    print_traits(out, scene.traits);
+    std::string needs;
+    for (const std::string& feature : feature_names(scene.traits)) {
+        needs += (needs.empty() ? " " : ", ") + feature;
+    }
+    out.line("needs{}", needs);
     for (const Light& light : scene.lights) {
         out.line("light {} {}", quote(Language::cpp, light.name),
                  std::visit([](const auto& l) { return light_text(l); }, light.light));

@@ -3,7 +3,9 @@
 #include "runtime/scene.h"
 
 #include <array>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace scc::compiler::ir {
 
@@ -31,5 +33,8 @@ inline constexpr auto trait_flags = std::to_array<TraitFlag>({
     {"perspective", &runtime::SceneTraits::perspective},
     {"orthographic", &runtime::SceneTraits::orthographic},
 });
+
+/// What a scene needs, in words: "sphere", "box (transformed)", "point_lights".
+std::vector<std::string> feature_names(const runtime::SceneTraits& traits);
 
 } // namespace scc::compiler::ir

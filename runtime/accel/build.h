@@ -7,9 +7,11 @@
 
 namespace scc::runtime {
 
-/// Three indices per triangle. `normals` and `normal_indices` empty: flat; else as many normal indices as indices.
+/// Three indices per triangle. `normals` and `normal_indices` empty: flat; else as many normal indices as
+/// indices.
 inline MeshStorage build_mesh(std::vector<float> positions, const std::vector<std::uint32_t>& indices,
-                              std::vector<float> normals = {}, std::vector<std::uint32_t> normal_indices = {}) {
+                              std::vector<float> normals = {},
+                              std::vector<std::uint32_t> normal_indices = {}) {
     const std::size_t count = indices.size() / 3;
     std::vector<Bounds<float>> boxes(count);
     for (std::size_t i = 0; i < indices.size(); ++i) {
@@ -52,7 +54,8 @@ Accelerator build_accelerator(const S& scene) {
     std::vector<PrimitiveRef> refs;
     [&]<std::uint32_t... kind>(std::integer_sequence<std::uint32_t, kind...>) {
         (detail::collect_bounds<S, kind>(scene, boxes, refs), ...);
-    }(std::make_integer_sequence<std::uint32_t, primitive_kinds>{});
+    }
+    (std::make_integer_sequence<std::uint32_t, primitive_kinds>{});
     Bvh bvh = build_bvh(boxes);
     Accelerator result;
     result.nodes = std::move(bvh.nodes);
@@ -75,7 +78,8 @@ std::size_t bounded_primitives(const S& scene) {
     };
     return [&]<std::uint32_t... kind>(std::integer_sequence<std::uint32_t, kind...>) {
         return (count(std::integral_constant<std::uint32_t, kind>{}) + ...);
-    }(std::make_integer_sequence<std::uint32_t, primitive_kinds>{});
+    }
+    (std::make_integer_sequence<std::uint32_t, primitive_kinds>{});
 }
 
 /// To be called when the tables and meshes are filled, before rendering.

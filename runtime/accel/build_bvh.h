@@ -32,8 +32,8 @@ Bounds<float> round_outwards(const Bounds<R>& b) {
 
 namespace detail {
 
-/// Binned surface area heuristic (Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007). The
-/// result depends on the boxes and their order alone.
+/// Binned surface area heuristic (Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies",
+/// 2007). The result depends on the boxes and their order alone.
 class BvhBuilder {
 public:
     explicit BvhBuilder(const std::vector<Bounds<float>>& boxes) : boxes_(boxes) {
@@ -113,15 +113,17 @@ private:
         }
     }
 
-    /// Sorts the range around the cheapest split and returns where it is; `begin` where a leaf is cheaper or no split
-    /// exists.
-    std::size_t split(std::size_t begin, std::size_t end, const Bounds<float>& box, const Bounds<float>& center_box) {
+    /// Sorts the range around the cheapest split and returns where it is; `begin` where a leaf is cheaper or
+    /// no split exists.
+    std::size_t split(std::size_t begin, std::size_t end, const Bounds<float>& box,
+                      const Bounds<float>& center_box) {
         Split best;
         for (int axis = 0; axis < 3; ++axis) {
             find_split(begin, end, axis, center_box, best);
         }
         const std::size_t count = end - begin;
-        const bool leaf_is_cheaper = best.cost + step_cost * half_area(box) >= static_cast<float>(count) * half_area(box);
+        const bool leaf_is_cheaper =
+            best.cost + step_cost * half_area(box) >= static_cast<float>(count) * half_area(box);
         if (best.axis < 0 || (count <= max_leaf && leaf_is_cheaper)) {
             return begin;
         }
@@ -138,7 +140,8 @@ private:
         return std::min(bins - 1, static_cast<std::size_t>(position));
     }
 
-    void find_split(std::size_t begin, std::size_t end, int axis, const Bounds<float>& center_box, Split& best) const {
+    void find_split(std::size_t begin, std::size_t end, int axis, const Bounds<float>& center_box,
+                    Split& best) const {
         const float extent = at(center_box.max, axis) - at(center_box.min, axis);
         if (!(extent > 0) || !(extent < std::numeric_limits<float>::infinity())) {
             return;
@@ -178,7 +181,8 @@ private:
         const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
         const std::size_t middle = begin + (end - begin) / 2;
         const auto first = bvh_.order.begin();
-        std::nth_element(first + static_cast<std::ptrdiff_t>(begin), first + static_cast<std::ptrdiff_t>(middle),
+        std::nth_element(first + static_cast<std::ptrdiff_t>(begin),
+                         first + static_cast<std::ptrdiff_t>(middle),
                          first + static_cast<std::ptrdiff_t>(end), [&](std::uint32_t i, std::uint32_t j) {
                              const float x = at(centers_[i], axis), y = at(centers_[j], axis);
                              return x < y || (x == y && i < j);
@@ -193,6 +197,8 @@ private:
 
 } // namespace detail
 
-inline Bvh build_bvh(const std::vector<Bounds<float>>& boxes) { return detail::BvhBuilder(boxes).build(); }
+inline Bvh build_bvh(const std::vector<Bounds<float>>& boxes) {
+    return detail::BvhBuilder(boxes).build();
+}
 
 } // namespace scc::runtime

@@ -4,8 +4,9 @@
 
 namespace scc::runtime {
 
-/// 32 bytes. Bounds are rounded outwards. An inner node's children are nodes[first] and nodes[first + 1]; a leaf has
-/// the primitives [first, first + count) of the order that the builder returns. The root is nodes[0].
+/// 32 bytes. Bounds are rounded outwards. An inner node's children are nodes[first] and nodes[first + 1]; a
+/// leaf has the primitives [first, first + count) of the order that the builder returns. The root is
+/// nodes[0].
 struct BvhNode {
     float min[3];
     float max[3];

@@ -72,7 +72,8 @@ constexpr Affine<R> compose(const Affine<R>& then, const Affine<R>& first) {
 template <class R>
 constexpr R determinant(const Affine<R>& a) {
     const auto& m = a.m;
-    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+           m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
            m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
@@ -98,8 +99,8 @@ constexpr Affine<long double> inverse_by_cofactors(const Affine<long double>& a)
 } // namespace detail
 
 /// The inverse map; not finite where the determinant is 0. Calculated in long double with one Newton step
-/// X' = X + X (1 - A X), so that each entry of a float or double result is its rounded true value unless the map is
-/// extremely ill-conditioned; the clearance of spawned rays relies on that (placed.h).
+/// X' = X + X (1 - A X), so that each entry of a float or double result is its rounded true value unless the
+/// map is extremely ill-conditioned; the clearance of spawned rays relies on that (placed.h).
 template <class R>
 constexpr Affine<R> inverse(const Affine<R>& a) {
     const Affine<long double> wide = affine_cast<long double>(a);

@@ -6,9 +6,9 @@
 #include <limits>
 #include <type_traits>
 
-/// The vocabulary in which every formula is written. A lane type L is float, double, long double or a Pack of them
-/// (pack.h); comparisons give a MaskOf<L>, which is combined by & | ! and used by choose. A formula for one lane has no
-/// branch on data, except "nobody needs the rest": if (none(mask)) return.
+/// The vocabulary in which every formula is written. A lane type L is float, double, long double or a Pack of
+/// them (pack.h); comparisons give a MaskOf<L>, which is combined by & | ! and used by choose. A formula for
+/// one lane has no branch on data, except "nobody needs the rest": if (none(mask)) return.
 namespace scc::runtime {
 
 template <class L>
@@ -19,6 +19,7 @@ struct LaneTraits<T> {
     using Real = T;
     using Mask = bool;
     using Index = std::uint32_t;
+    static constexpr int count = 1;
 };
 
 template <class L>
@@ -29,25 +30,58 @@ template <class L>
 using IndexOf = typename LaneTraits<L>::Index; ///< a small whole number per lane
 
 template <class L>
-concept Lane = requires { typename LaneTraits<L>::Real; };
+concept Lane = requires {
+    typename LaneTraits<L>::Real;
+};
 
 template <Lane L>
 constexpr L infinity() {
     return L(std::numeric_limits<RealOf<L>>::infinity());
 }
 
-constexpr bool any(bool mask) { return mask; }
-constexpr bool all(bool mask) { return mask; }
-constexpr bool none(bool mask) { return !mask; }
+template <class L>
+inline constexpr int lane_count = LaneTraits<L>::count;
+
+/// Lane i of a value. Those of a scalar are itself.
+template <class T>
+requires std::is_arithmetic_v<T>
+constexpr T lane(T x, int) {
+    return x;
+}
+template <std::floating_point T>
+constexpr void set_lane(T& x, int, T value) {
+    x = value;
+}
+constexpr int first_lane(bool) {
+    return 0;
+}
+constexpr std::uint64_t count_lanes(bool mask) {
+    return mask ? 1 : 0;
+}
+constexpr unsigned bits(bool mask) {
+    return mask ? 1 : 0;
+}
+
+constexpr bool any(bool mask) {
+    return mask;
+}
+constexpr bool all(bool mask) {
+    return mask;
+}
+constexpr bool none(bool mask) {
+    return !mask;
+}
 
 template <class T>
-    requires std::is_arithmetic_v<T>
+requires std::is_arithmetic_v<T>
 constexpr T choose(bool mask, T where_true, T where_false) {
     return mask ? where_true : where_false;
 }
 
 /// 1 or 0. A float converts to every lane type without loss; assign it to one before calculating on.
-constexpr float truth(bool mask) { return mask ? 1.0F : 0.0F; }
+constexpr float truth(bool mask) {
+    return mask ? 1.0F : 0.0F;
+}
 
 /// b where b < a, else a: a NaN in b is ignored, a NaN in a stays.
 template <Lane L>
@@ -100,9 +134,9 @@ constexpr T difference_of_products(T a, T b, T c, T d) {
     }
 }
 
-/// x, of which the compiler knows nothing any more. Compilers fold elementary functions of known arguments with other
-/// rounding than the library's (and turn pow(x, 2) into x * x, sin and cos into one call): without this, a program
-/// compiled for one scene would draw other bits than the generic one.
+/// x, of which the compiler knows nothing any more. Compilers fold elementary functions of known arguments
+/// with other rounding than the library's (and turn pow(x, 2) into x * x, sin and cos into one call): without
+/// this, a program compiled for one scene would draw other bits than the generic one.
 template <std::floating_point T>
 T opaque(T x) {
 #if defined(__x86_64__)

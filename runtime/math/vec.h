@@ -9,10 +9,16 @@ template <class R>
 struct Vec3 {
     R x{}, y{}, z{};
 
-    friend constexpr bool operator==(const Vec3&, const Vec3&) = default;
+    friend constexpr bool operator==(const Vec3& a, const Vec3& b) {
+        return a.x == b.x && a.y == b.y && a.z == b.z;
+    }
 
-    friend constexpr Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-    friend constexpr Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+    friend constexpr Vec3 operator+(const Vec3& a, const Vec3& b) {
+        return {a.x + b.x, a.y + b.y, a.z + b.z};
+    }
+    friend constexpr Vec3 operator-(const Vec3& a, const Vec3& b) {
+        return {a.x - b.x, a.y - b.y, a.z - b.z};
+    }
     friend constexpr Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
     friend constexpr Vec3 operator*(const Vec3& a, const R& s) { return {a.x * s, a.y * s, a.z * s}; }
     friend constexpr Vec3 operator*(const R& s, const Vec3& a) { return a * s; }
@@ -24,7 +30,9 @@ template <class R>
 struct Rgb {
     R r{}, g{}, b{};
 
-    friend constexpr bool operator==(const Rgb&, const Rgb&) = default;
+    friend constexpr bool operator==(const Rgb& p, const Rgb& q) {
+        return p.r == q.r && p.g == q.g && p.b == q.b;
+    }
 
     friend constexpr Rgb operator+(const Rgb& p, const Rgb& q) { return {p.r + q.r, p.g + q.g, p.b + q.b}; }
     friend constexpr Rgb operator*(const Rgb& p, const Rgb& q) { return {p.r * q.r, p.g * q.g, p.b * q.b}; }

@@ -46,7 +46,8 @@ struct Box {
         const auto face = [&](std::uint32_t first, const L& d) {
             return choose(entering == (d > 0), Index(first), Index(first + 1));
         };
-        return {t, choose(x_face, face(0, ray.dir.x), choose(y_face, face(2, ray.dir.y), face(4, ray.dir.z)))};
+        return {t,
+                choose(x_face, face(0, ray.dir.x), choose(y_face, face(2, ray.dir.y), face(4, ray.dir.z)))};
     }
 
     template <class L>
@@ -54,7 +55,7 @@ struct Box {
         Vec3<L> point = ray.org + hit.t * ray.dir;
         point = maximum(minimum(point, lanes<L>(max)), lanes<L>(min));
         Vec3<L> normal{L(0), L(0), L(0)};
-        const auto put = [&](std::uint32_t face, L& coordinate, R value, L& component, int sign) {
+        const auto put = [&](std::uint32_t face, L& coordinate, R value, L& component, R sign) {
             const MaskOf<L> here = hit.part == IndexOf<L>(face);
             coordinate = choose(here, L(value), coordinate);
             component = choose(here, L(sign), component);
@@ -65,7 +66,8 @@ struct Box {
         put(3, point.y, max.y, normal.y, 1);
         put(4, point.z, min.z, normal.z, -1);
         put(5, point.z, max.z, normal.z, 1);
-        // The face's coordinate is exact, and comparing with it is. The bound is for what a transform does to it.
+        // The face's coordinate is exact, and comparing with it is. The bound is for what a transform does to
+        // it.
         const Vec3<R> magnitude = maximum(absolute(min), absolute(max));
         return {point, lanes<L>(magnitude) * (4 * roundoff<L>()), normal, normal};
     }

@@ -32,7 +32,9 @@ struct Cylinder {
         const Vec3<R> axis = normalize(to - from);
         const R magnitude = largest_component(maximum(absolute(from), absolute(to)));
         const R slack = 32 * roundoff<R>() * (magnitude + radius);
-        const auto reach = [&](R cosine) { return radius * square_root(maximum(R(0), 1 - cosine * cosine)) + slack; };
+        const auto reach = [&](R cosine) {
+            return radius * square_root(maximum(R(0), 1 - cosine * cosine)) + slack;
+        };
         const Vec3<R> half{reach(axis.x), reach(axis.y), reach(axis.z)};
         return {minimum(from, to) - half, maximum(from, to) + half};
     }
@@ -57,7 +59,8 @@ struct Cylinder {
         const Vec3<L> normal = choose(on_side, radial, choose(at_from, -f.axis, f.axis));
         const Vec3<L> from_axis = choose(on_side, radial * L(radius), across);
         const Vec3<L> point = lanes<L>(from) + (f.axis * height + from_axis);
-        // As the sphere's, where splitting org - from along the axis costs roundings of its length, at most height + r.
+        // As the sphere's, where splitting org - from along the axis costs roundings of its length, at most
+        // height + r.
         const L size = f.height + L(radius);
         return {point, absolute(point) * (4 * u) + absolute(normal) * (32 * u * size), normal, normal};
     }
@@ -85,7 +88,8 @@ private:
     };
 
     template <class L>
-    constexpr ShapeHit<L> intersect_open(const Ray<L>& ray, const Frame<L>& f, const CircleRoots<L>& side) const {
+    constexpr ShapeHit<L> intersect_open(const Ray<L>& ray, const Frame<L>& f,
+                                         const CircleRoots<L>& side) const {
         if (none(side.real)) {
             return {};
         }
@@ -97,10 +101,11 @@ private:
         return {minimum(usable(side.near), usable(side.far)), {}};
     }
 
-    /// The ray's stretch inside the endless tube and its stretch between the caps: their common part is inside the
-    /// solid, so there is no seam at the rim for a ray to slip through.
+    /// The ray's stretch inside the endless tube and its stretch between the caps: their common part is
+    /// inside the solid, so there is no seam at the rim for a ray to slip through.
     template <class L>
-    constexpr ShapeHit<L> intersect_closed(const Ray<L>& ray, const Frame<L>& f, const CircleRoots<L>& side) const {
+    constexpr ShapeHit<L> intersect_closed(const Ray<L>& ray, const Frame<L>& f,
+                                           const CircleRoots<L>& side) const {
         const L inf = infinity<L>();
         const MaskOf<L> along_axis = dot(f.dir_across, f.dir_across) == 0;
         const L everywhere = choose(along_axis & (side.excess <= 0), inf, -inf);

@@ -31,7 +31,9 @@ struct Disc {
         const Vec3<R> n = normalize(normal);
         const R slack = 16 * roundoff<R>() * (largest_component(absolute(center)) + radius);
         // Along an axis the disc reaches radius times the sine of the angle between axis and normal.
-        const auto reach = [&](R cosine) { return radius * square_root(maximum(R(0), 1 - cosine * cosine)) + slack; };
+        const auto reach = [&](R cosine) {
+            return radius * square_root(maximum(R(0), 1 - cosine * cosine)) + slack;
+        };
         const Vec3<R> half{reach(n.x), reach(n.y), reach(n.z)};
         return {center - half, center + half};
     }

@@ -18,8 +18,9 @@ struct Plane {
     R offset = 0;
 
     static constexpr auto fields() {
-        return std::tuple{field("normal", &Plane::normal, Rule::nonzero_vector, "points to the front side"),
-                          field("offset", &Plane::offset, Rule::any, "distance from the origin along the normal")};
+        return std::tuple{
+            field("normal", &Plane::normal, Rule::nonzero_vector, "points to the front side"),
+            field("offset", &Plane::offset, Rule::any, "distance from the origin along the normal")};
     }
 
     template <class L>

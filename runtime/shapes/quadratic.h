@@ -4,8 +4,9 @@
 
 namespace scc::runtime {
 
-/// The two values of t, near <= far, where a ray is at distance r from a point or, given the parts of org and dir that
-/// are perpendicular to an axis, from the axis. `real`: the ray gets that near; the rest is undefined elsewhere.
+/// The two values of t, near <= far, where a ray is at distance r from a point or, given the parts of org and
+/// dir that are perpendicular to an axis, from the axis. `real`: the ray gets that near; the rest is
+/// undefined elsewhere.
 template <class L>
 struct CircleRoots {
     L near, far;
@@ -13,10 +14,10 @@ struct CircleRoots {
     L excess; ///< |org|^2 - r^2: not positive where the ray starts inside
 };
 
-/// `org` relative to the centre. The discriminant comes from the distance of the ray's point nearest to the centre, and
-/// only one root from a sum, so that neither cancels for small or far spheres (Haines, Guenther, Akenine-Moeller,
-/// "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019). dir = 0 (a ray along the cylinder's
-/// axis): not real.
+/// `org` relative to the centre. The discriminant comes from the distance of the ray's point nearest to the
+/// centre, and only one root from a sum, so that neither cancels for small or far spheres (Haines, Guenther,
+/// Akenine-Moeller, "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019). dir = 0 (a
+/// ray along the cylinder's axis): not real.
 template <class L>
 constexpr CircleRoots<L> intersect_circle(const Vec3<L>& org, const Vec3<L>& dir, const L& r) {
     const L a = dot(dir, dir);

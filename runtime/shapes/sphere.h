@@ -47,8 +47,8 @@ struct Sphere {
         const Vec3<L> c = lanes<L>(center);
         const Vec3<L> normal = normalize((ray.org - c) + hit.t * ray.dir);
         const Vec3<L> point = c + normal * L(radius);
-        // 2: the sum. 16 radii: c' = |f|^2 - r^2 and the discriminant near the surface, 8 roundings of r^2 each, which
-        // is 4 of r in distance, and the normal's and the product's own.
+        // 2: the sum. 16 radii: c' = |f|^2 - r^2 and the discriminant near the surface, 8 roundings of r^2
+        // each, which is 4 of r in distance, and the normal's and the product's own.
         const Vec3<L> error = absolute(point) * (2 * u) + absolute(normal) * (16 * u * L(radius));
         return {point, error, normal, normal};
     }

@@ -57,7 +57,8 @@ struct LectureScene : SceneBase<R_> {
         .n = {R(0.52414241836095915), R(0.32758901147559946), R(0.78621362754143878)},
         .half_height = R(0.36397023426620234)};
     static constexpr Rgb<R> ambient = gray(0.2);
-    static constexpr Rgb<R> background{R(0.014443843596092545), R(0.031896033073011532), R(0.021219010376003555)};
+    static constexpr Rgb<R> background{R(0.014443843596092545), R(0.031896033073011532),
+                                       R(0.021219010376003555)};
 
     template <class L>
     static Rgb<L> color_function(std::int32_t, const SurfacePoint<L>& s) {

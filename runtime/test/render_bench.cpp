@@ -22,7 +22,8 @@ Image time_rendering(const char* name, const S& scene) {
         best = std::min(best, time.count());
     }
     const auto rays = static_cast<double>(result.rays.primary + result.rays.shadow + result.rays.reflected);
-    std::printf("%-20s %7.1f ms  %5.2f M rays  %6.1f ns per ray\n", name, best, rays * 1e-6, best * 1e6 / rays);
+    std::printf("%-20s %7.1f ms  %5.2f M rays  %6.1f ns per ray\n", name, best, rays * 1e-6,
+                best * 1e6 / rays);
     return image;
 }
 

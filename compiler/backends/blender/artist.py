@@ -9,7 +9,9 @@ def artist_surface(g, fields, hit):
         diffuse = tuple((1 - metallic) * d + r for d, r in zip(diffuse, reflect))
     g.put(shader.inputs["Base Color"], diffuse)
     shader.inputs["Metallic"].default_value = min(1.0, metallic)
+    #: emission
     g.put(shader.inputs["Emission"], fields["emission"])
+    #: end
     shader.inputs["Specular"].default_value = 0.0
     #: specular
     specular, shininess = fields["specular"], fields["shininess"]
@@ -24,6 +26,7 @@ def artist_surface(g, fields, hit):
     return shader.outputs[0]
 
 
+#: light
 def artist_lamp(lamp, light):
     lamp.color, lamp.energy = light["diffuse"], math.pi
     #: directional
@@ -40,6 +43,7 @@ def artist_lamp(lamp, light):
     #: end
 
 
+#: end
 def artist_settings(scene, samples):
     scene.cycles.samples, scene.cycles.max_bounces = samples, 8
 

@@ -47,19 +47,34 @@ def function_group(name):
     results = build.__annotations__["return"]
     g, i, out = new_group(name, {key: "Vector" for key in reads}, dict(Result=results))
     value = build(g, *(g.split(i[key]) for key in reads))
-    g.put(out["Result"], g.join(*value) if results == "Color" else value)
+    g.put(out["Result"], g.join(*value) if results == "Color" else g.f("ADD", value, 0.0))
     return g.tree
 
 
 #: end
+BLACK = (0.0, 0.0, 0.0)
+DEFAULTS = dict(
+    #: specular
+    specular=BLACK, shininess=32.0,
+    #: end
+    #: emission
+    emission=BLACK,
+    #: end
+    #: mirror
+    reflect=BLACK,
+    #: end
+)
+
+
 def one_side(g, name, hit):
     """The fields of a material, those that vary as sockets."""
     fields = dict(DEFAULTS, **MATERIALS[name])
     #: function
     for key, value in fields.items():
         if isinstance(value, str):
-            tree = function_group(value)
-            fields[key] = g.group(tree, **{read: hit[POINT[read]] for read in tree.inputs.keys()})["Result"]
+            outputs = dict(p="P", world="Position", n="Outward")
+            points = {read: hit[outputs[read]] for read in FUNCTIONS[value][1]}
+            fields[key] = g.group(function_group(value), **points)["Result"]
     #: end
     return fields
 
@@ -69,10 +84,12 @@ def either_side(g, front, back, side):
     fields = {}
     for key, a in front.items():
         b = back[key]
-        if key == "shininess":
+        if a == b:
+            fields[key] = a
+        elif key == "shininess":
             fields[key] = g.f("MULTIPLY_ADD", side, b, g.f("MULTIPLY", g.f("SUBTRACT", 1.0, side), a))
         else:
-            fields[key] = a if a == b else choose(g, side, a, b)
+            fields[key] = choose(g, side, a, b)
     return fields
 
 

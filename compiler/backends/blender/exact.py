@@ -6,7 +6,10 @@ GAIN = 1024.0  # Cycles drops closures below 1e-5: materials are so much brighte
 
 
 def field_inputs():
-    return dict(Ambient="Color", Diffuse="Color", Emission="Color", Position="Vector", Normal="Vector",
+    return dict(Ambient="Color", Diffuse="Color", Position="Vector", Normal="Vector",
+                #: emission
+                Emission="Color",
+                #: end
                 #: specular
                 Specular="Color", Shininess="Float",
                 #: end
@@ -20,15 +23,15 @@ def field_inputs():
 def phong_group():
     g, i, out = new_group("phong", field_inputs(), dict(Shader="Shader"))
     normal = i["Normal"]
-    now = g.layer("scc_local", "Fac")
-    #: mirror
     depth, bounce = g.add("ShaderNodeLightPath").outputs["Ray Depth"], g.layer("scc_bounce", "Fac")
-    now = g.f("COMPARE", depth, bounce, 0.25)  # nothing is lit before and after
+    now = g.f("COMPARE", depth, bounce, 0.25)  # nothing is lit before, nor where Cycles goes on after
+    glow = g.v("MULTIPLY", i["Ambient"], AMBIENT)
+    #: emission
+    glow = g.v("ADD", glow, i["Emission"])
     #: end
-    glow = g.add("ShaderNodeEmission")
-    g.put(glow.inputs["Color"], g.v("SCALE", g.v("MULTIPLY_ADD", i["Ambient"], AMBIENT, i["Emission"]),
-                                    g.f("MULTIPLY", now, g.layer("scc_glow", "Fac"))))
-    shader = glow.outputs[0]
+    emission = g.add("ShaderNodeEmission")
+    g.put(emission.inputs["Color"], g.v("SCALE", glow, g.f("MULTIPLY", now, g.layer("scc_glow", "Fac"))))
+    shader = emission.outputs[0]
     #: light
     to_light = g.layer("scc_light")
     gain = g.f("MULTIPLY", now, GAIN)
@@ -50,6 +53,9 @@ def phong_group():
     #: end
     toon = g.add("ShaderNodeBsdfToon", component="DIFFUSE")
     toon.inputs["Size"].default_value, toon.inputs["Smooth"].default_value = 1.0, 0.0
+    #: smooth
+    g.put(toon.inputs["Normal"], normal)  # light may come from below the flat triangle
+    #: end
     g.put(toon.inputs["Color"], g.v("SCALE", light, g.f("MULTIPLY", gain, g.f("GREATER_THAN", cosine, 0.0))))
     both = g.add("ShaderNodeAddShader")
     g.put(both.inputs[0], toon.outputs[0])
@@ -76,6 +82,7 @@ def exact_surface(g, fields, hit):
     return g.group(phong_group(), Position=hit["Position"], Normal=hit["Normal"], **inputs)["Shader"]
 
 
+#: light
 def exact_lamp(lamp, light):
     lamp.energy = 2 * math.pi / GAIN
     #: point
@@ -87,14 +94,12 @@ def exact_lamp(lamp, light):
     lamp.cycles.use_multiple_importance_sampling = False
 
 
+#: end
 def exact_world(world):
     g = Graph(world.node_tree)
-    strength = g.layer("scc_glow", "Fac")
-    #: mirror
-    depth = g.add("ShaderNodeLightPath").outputs["Ray Depth"]
-    strength = g.f("MULTIPLY", strength, g.f("COMPARE", depth, g.f("ADD", g.layer("scc_bounce", "Fac"), 1.0), 0.25))
-    #: end
-    g.put(world.node_tree.nodes["Background"].inputs["Strength"], strength)
+    depth = g.f("SUBTRACT", g.add("ShaderNodeLightPath").outputs["Ray Depth"], 1.0)  # one more than at a surface
+    now = g.f("COMPARE", depth, g.layer("scc_bounce", "Fac"), 0.25)
+    g.put(world.node_tree.nodes["Background"].inputs["Strength"], g.f("MULTIPLY", now, g.layer("scc_glow", "Fac")))
 
 
 def layer_properties(light):

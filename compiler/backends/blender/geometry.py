@@ -63,8 +63,8 @@ ASPECT = 8.0  # of a triangle; the sliver's length over its width multiplies Cyc
 
 
 def segments(o, center, radius):
-    """Of a circle that is drawn right to a five-hundredth of a pixel."""
-    needed = math.pi * math.sqrt(125 * apparent_radius(o, center, radius))
+    """Of a circle that is drawn right to a 250th of a pixel."""
+    needed = math.pi * math.sqrt(62.5 * apparent_radius(o, center, radius))
     return int(np.clip(2 ** math.ceil(math.log2(max(needed, 1))), 128, 1024))
 
 
@@ -93,8 +93,8 @@ def band(n, rows):
 #: end
 #: sphere
 def sphere_divisions(o):
-    """So many that the outline is right to a five-hundredth of a pixel, within reason."""
-    needed = math.log(0.12 * 500 * apparent_radius(o, o["center"], o["radius"]), 4)
+    """So many that the outline is right to a 250th of a pixel, within reason."""
+    needed = math.log(0.12 * 250 * apparent_radius(o, o["center"], o["radius"]), 4)
     return int(np.clip(math.ceil(needed), 4, 7))
 
 
@@ -204,6 +204,9 @@ def mesh_mesh(o):
 
 #: end
 #: plane
+PLANE_SEGMENTS, PLANE_RINGS = 12, 20  # the last ring is a million times as large as the first
+
+
 def world_plane(o):
     """Unit normal and offset in the world."""
     into_object = np.linalg.inv(affine(o.get("world", IDENTITY)))

@@ -18,10 +18,12 @@ def flat_hit(o=None):
 
 
 #: end
+#: flat smooth horizon
 def front_sign(g, geometry):
     return g.f("MULTIPLY_ADD", geometry["Backfacing"], -2.0, 1.0)
 
 
+#: end
 #: curved smooth
 def normal_to_world(g, normal):
     """By the inverse transpose; Vector Transform treats a normal as a direction in Blender 3.4."""
@@ -128,24 +130,25 @@ def plane_hit(o):
     in column and row, with coefficients cut into pieces so short that the products and the sums are exact."""
     g, _, out = new_group("hit on " + o["name"], {}, HIT)
     geometry = g.add("ShaderNodeNewGeometry").outputs
-    g.put(out["Position"], geometry["Position"])
     g.put(out["Normal"], geometry["Normal"])
     g.put(out["Outward"], g.v("SCALE", geometry["Normal"], front_sign(g, geometry)))
     g.put(out["Back"], geometry["Backfacing"])
-    into_object = np.linalg.inv(affine(o.get("world", IDENTITY)))
-    p = g.join(*(g.f("ADD", g.v("DOT_PRODUCT", geometry["Position"], tuple(row[:3])), float(row[3]))
-                 for row in into_object[:3]))
     index = g.v("FLOOR", g.v("MULTIPLY", g.add("ShaderNodeTexCoord").outputs["Window"], (*SIZE, 0.0)))
     column, row, _ = g.split(index)
-    numerator, denominator = plane_by_pixel(o, into_object)
+    numerator, denominator = plane_by_pixel(o)
     exact = g.v("DIVIDE", by_pixel(g, numerator, column, row), by_pixel(g, denominator, column, row))
     seen = g.f("LESS_THAN", g.add("ShaderNodeLightPath").outputs["Ray Depth"], 0.5)
-    g.put(out["P"], choose(g, seen, p, exact))
+    position = choose(g, seen, geometry["Position"], exact)
+    g.put(out["Position"], position)
+    if "world" in o:
+        rows = np.linalg.inv(affine(o["world"]))[:3].tolist()
+        position = g.join(*(g.f("ADD", g.v("DOT_PRODUCT", position, tuple(row[:3])), row[3]) for row in rows))
+    g.put(out["P"], position)
     return g.tree
 
 
-def plane_by_pixel(o, into_object):
-    """p = numerator(column, row) / denominator(column, row); each 3 x 3, a row per coordinate: (1, column, row)."""
+def plane_by_pixel(o):
+    """Position = numerator(column, row) / denominator(column, row); each 3 x 3, a row per coordinate: (1, column, row)."""
     eye, right, up, back = (np.array(CAMERA[k]) for k in ("eye", "right", "up", "back"))
     normal, offset = world_plane(o)
     half, (shift_x, shift_y), (width, height) = CAMERA["half_height"], CAMERA["shift"], SIZE
@@ -162,7 +165,6 @@ def plane_by_pixel(o, into_object):
         origin, direction = np.outer(eye, constant) + on_window, -back
         below = constant * (normal @ direction)
         above = origin * (normal @ direction) + np.outer(direction, offset * constant - normal @ origin)
-    above = into_object[:3, :3] @ above + np.outer(into_object[:3, 3], below)
     return above, np.tile(below, (3, 1))
 
 

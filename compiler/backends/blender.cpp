@@ -1,0 +1,53 @@
+#include "compiler/backends/blender.h"
+
+#include "compiler/backends/blender_ledger.h"
+#include "compiler/backends/blender_library.h"
+#include "compiler/backends/blender_mesh.h"
+#include "compiler/backends/blender_needs.h"
+#include "compiler/backends/blender_scene.h"
+#include "compiler/writer.h"
+
+namespace scc::compiler {
+
+namespace {
+
+constexpr std::string_view opening = R"py(A scene for Blender 3.4 and Cycles, exported by scc.
+
+  blender -b --factory-startup --python-exit-code 1 -P THIS.py -- --render image.exr --size 640x480
+
+draws it; `-- --help` tells the options. To look at it in Blender: open this file in the Text editor, Run Script, then
+F12. Running it again replaces what it made and nothing else. The picture of the exact look belongs to the camera and
+the size below: change them here, not in Blender.
+"""
+import argparse
+#: packed
+import base64
+#: end
+import collections
+import functools
+import hashlib
+import math
+import os
+import sys
+
+import bpy
+import numpy as np
+from mathutils import Matrix, Vector
+
+)py";
+
+} // namespace
+
+std::string emit_blender(const ir::Scene& scene, Ledger& ledger) {
+    BlenderNeeds needs = blender_needs(scene);
+    if (needs_packing(scene, needs)) {
+        needs.features.emplace("packed");
+    }
+    Writer out;
+    write_blender_scene(out, scene, needs);
+    record_blender(scene, needs, ledger);
+    return "\"\"\"" + select_features(opening, needs.features) + out.take() + "\n\n" +
+           blender_library(needs.features);
+}
+
+} // namespace scc::compiler

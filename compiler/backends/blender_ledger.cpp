@@ -1,0 +1,204 @@
+#include "compiler/backends/blender_ledger.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace scc::compiler {
+
+namespace {
+
+using runtime::Phong;
+using runtime::Rgb;
+using runtime::Varying;
+
+struct Account {
+    Fidelity fidelity;
+    std::string how;
+    double bound = 0;
+};
+
+// Positions this many times as large as the objects near them leave too few of 24 bits.
+constexpr double farthest = 1e3;
+// The near plane of a camera in Blender is at 1e-6 at least.
+constexpr double smallest_scene = 1e-5;
+
+template <class Shape>
+Account account(const Shape&, bool mirror, bool smooth, bool pattern) {
+    using namespace runtime;
+    if constexpr (std::is_same_v<Shape, Sphere<double>> || std::is_same_v<Shape, Cylinder<double>>) {
+        return {
+            Fidelity::approximated,
+            "hit and normal exact, computed in the material; outline and shadow by a mesh, bound in pixels",
+            0.004};
+    } else if constexpr (std::is_same_v<Shape, Disc<double>>) {
+        return {Fidelity::approximated, "a polygon; bound of its rim in pixels", 0.004};
+    } else if constexpr (std::is_same_v<Shape, Plane<double>>) {
+        return {Fidelity::approximated,
+                pattern ? "triangles to the horizon, the pattern exact where the camera sees it; in mirrors "
+                          "its cells "
+                          "may swap near the horizon; bound: sine of the flattest angle at which it is seen"
+                        : "triangles to the horizon; bound: sine of the flattest angle at which it is seen",
+                1e-6};
+    } else if (smooth && mirror) {
+        return {
+            Fidelity::approximated,
+            "normals interpolated exactly; Cycles bends mirror rays that would enter the surface, bound in "
+            "radiance at such pixels",
+            1};
+    } else {
+        return {Fidelity::exact,
+                smooth ? "triangles, with normals interpolated in the material" : "triangles"};
+    }
+}
+
+class Recorder {
+public:
+    Recorder(const ir::Scene& scene, const BlenderNeeds& needs, Ledger& ledger)
+        : scene_(scene), needs_(needs), ledger_(ledger) {}
+
+    void record() {
+        for (const ir::Object& object : scene_.objects) {
+            record(object);
+        }
+        for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
+            if (needs_.materials[i]) {
+                record(scene_.materials[i]);
+            }
+        }
+        for (const ir::Light& light : scene_.lights) {
+            std::visit([&](const auto& l) { record(light, l); }, light.light);
+        }
+        record_camera();
+        record_settings();
+    }
+
+private:
+    void add(Account account, std::string feature, const std::string& subject, lang::Span span) {
+        ledger_.push_back(
+            {account.fidelity, std::move(feature), subject, span, std::move(account.how), account.bound});
+    }
+
+    bool reflects(std::uint32_t material) const {
+        return needs_.bounces > 0 && is_present(scene_.materials[material].phong.reflect);
+    }
+
+    void record(const ir::Object& object) {
+        const bool mirror = reflects(object.sides.front) || reflects(object.sides.back);
+        const bool smooth = is_smooth(object.shape, scene_);
+        const bool pattern = has_pattern(object, scene_);
+        std::visit(
+            [&]<class Shape>(const Shape& shape) {
+                add(account(shape, mirror, smooth, pattern), std::string(Shape::name), object.path,
+                    object.span);
+            },
+            object.shape);
+        if (!(object.world_from_object == runtime::Affine<double>{})) {
+            add({Fidelity::exact, "the object's matrix, shear and mirroring included"}, "transform",
+                object.path, object.span);
+        }
+        if (object.sides.front != object.sides.back) {
+            add({Fidelity::exact, "chosen in the material by the side that is seen"}, "two_sided",
+                object.path, object.span);
+        }
+    }
+
+    void record(const ir::Material& material) {
+        const Phong<double>& p = material.phong;
+        add({Fidelity::exact, "the formula in nodes, one view layer per light"}, "phong", material.name,
+            material.span);
+        if (needs_.bounces > 0 && is_present(p.reflect)) {
+            add({Fidelity::exact, "one view layer per number of bounces"}, "reflect", material.name,
+                material.span);
+        }
+        record_function(p.ambient.function, "ambient", material);
+        record_function(p.diffuse.function, "diffuse", material);
+        record_function(p.specular.function, "specular", material);
+        record_function(p.emission.function, "emission", material);
+        record_function(p.reflect.function, "reflect", material);
+        record_function(p.shininess.function, "shininess", material);
+    }
+    void record_function(std::int32_t function, std::string_view field, const ir::Material& material) {
+        if (function == runtime::no_function) {
+            return;
+        }
+        const std::string& name = scene_.functions[static_cast<std::size_t>(function)].name;
+        add({Fidelity::approximated,
+             fmt::format("`{}` as Math nodes; bound: relative rounding of each operation", name), 6e-8},
+            fmt::format("per-point {}", field), material.name, material.span);
+    }
+
+    void record(const ir::Light& light, const runtime::PointLight<double>& point) {
+        add({Fidelity::exact, "a point lamp for what it reaches, its light computed in the materials"},
+            "point_light", light.name, light.span);
+        if (point.kc != 1 || point.kl != 0 || point.kq != 0) {
+            add({Fidelity::exact, "computed in the materials"}, "attenuation", light.name, light.span);
+        }
+        record_negative(light, point);
+    }
+    void record(const ir::Light& light, const runtime::DirectionalLight<double>& sun) {
+        add({Fidelity::exact, "a sun for what it reaches, its light computed in the materials"},
+            "directional_light", light.name, light.span);
+        record_negative(light, sun);
+    }
+    template <class Light>
+    void record_negative(const ir::Light& light, const Light& l) {
+        const auto negative = [](const Rgb<double>& c) { return c.r < 0 || c.g < 0 || c.b < 0; };
+        if (negative(l.diffuse) || negative(l.specular)) {
+            add({Fidelity::dropped, "Cycles clamps light below 0"}, "negative color", light.name, light.span);
+        }
+    }
+
+    void record_camera() {
+        const bool perspective = scene_.camera.projection == runtime::Projection::perspective;
+        add({Fidelity::exact, "one ray through each pixel's centre"},
+            perspective ? "perspective_camera" : "orthographic_camera", "camera", scene_.camera_span);
+        if (needs_.extent < smallest_scene) {
+            add({Fidelity::dropped, "Blender's camera sees nothing nearer than 1e-6"}, "scale", "scene",
+                scene_.camera_span);
+        }
+        const double distance = length(needs_.center);
+        if (distance > farthest * needs_.extent) {
+            add({Fidelity::approximated,
+                 "far from the origin; bound: rounding of a coordinate over the scene's extent",
+                 6e-8 * distance / needs_.extent},
+                "position", "scene", scene_.camera_span);
+        }
+    }
+
+    void record_settings() {
+        if (needs_.cut_off > 0) {
+            add({Fidelity::approximated,
+                 fmt::format("{} of {} bounces; bound: share of the light that the others could add",
+                             needs_.bounces, scene_.settings.depth),
+                 needs_.cut_off},
+                "depth", "render", scene_.camera_span);
+        }
+        if (!scene_.lights.empty()) {
+            add({Fidelity::exact, scene_.settings.shadows ? "Cycles' shadow rays" : "lamps without shadows"},
+                "shadows", "render", scene_.camera_span);
+        }
+        if (scene_.settings.samples_per_axis > 1) {
+            add({Fidelity::exact,
+                 fmt::format(
+                     "by `--size` {0} times larger and the mean of {0} x {0} pixels; the script itself takes "
+                     "one sample",
+                     scene_.settings.samples_per_axis)},
+                "samples", "render", scene_.camera_span);
+        }
+    }
+
+    const ir::Scene& scene_;
+    const BlenderNeeds& needs_;
+    Ledger& ledger_;
+};
+
+} // namespace
+
+void record_blender(const ir::Scene& scene, const BlenderNeeds& needs, Ledger& ledger) {
+    Recorder(scene, needs, ledger).record();
+}
+
+} // namespace scc::compiler

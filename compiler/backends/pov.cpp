@@ -1,0 +1,270 @@
+#include "compiler/backends/pov.h"
+
+#include "compiler/backends/pov_frame.h"
+#include "compiler/backends/pov_light.h"
+#include "compiler/backends/pov_material.h"
+#include "compiler/backends/pov_shape.h"
+#include "compiler/backends/pov_text.h"
+#include "compiler/writer.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <set>
+#include <type_traits>
+#include <utility>
+
+namespace scc::compiler {
+
+using runtime::Vec3;
+
+namespace {
+
+constexpr int highest_trace_level = 256;
+
+class PovExport {
+public:
+    PovExport(const ir::Scene& scene, Ledger& ledger, const lang::SourceSet* sources)
+        : scene_(scene), ledger_(ledger), sources_(sources), frame_(choose_frame(scene)),
+          in_union_(needs_object_union(scene)), materials_(scene, functions_, textures_, ledger) {}
+
+    std::string run() {
+        emit_camera();
+        emit_objects();
+        emit_lights(scene_, frame_, lights_, ledger_);
+        Writer file;
+        emit_settings(file);
+        append(file, "camera", camera_);
+        append(file, "per-point functions", functions_);
+        append(file, "materials", textures_);
+        append(file, "meshes", meshes_);
+        append(file, "objects", objects_);
+        append(file, "lights", lights_);
+        return file.take();
+    }
+
+private:
+    static void append(Writer& file, std::string_view title, Writer& section) {
+        if (section.text().empty()) {
+            return;
+        }
+        file.blank();
+        file.line("// ---- {} ----", title);
+        file.blank();
+        std::string text = section.take();
+        text.pop_back();
+        file.raw_line(text);
+    }
+
+    void note(Fidelity fidelity, std::string feature, std::string subject, lang::Span span, std::string how,
+              double bound = 0) {
+        ledger_.push_back({fidelity, std::move(feature), std::move(subject), span, std::move(how), bound});
+    }
+
+    void emit_settings(Writer& file) {
+        const runtime::RenderSettings& settings = scene_.settings;
+        file.line("// {}, exported by scc", comment_text(scene_.name));
+        file.line("//   povray +ITHIS.pov +OIMAGE.png +W{} +H{} +FN16 File_Gamma=1.0 -A -D", settings.width,
+                  settings.height);
+        file.line("#version 3.7;");
+        emit_frame_comment(file);
+        file.blank();
+        file.line("// Declare=scc_exposure=0.25 on the command line makes the picture four times darker.");
+        file.line("#ifndef (scc_exposure) #declare scc_exposure = 1; #end");
+        file.line("global_settings {{");
+        file.indent();
+        file.line("assumed_gamma 1.0");
+        file.line("max_trace_level {}", std::clamp(settings.depth + 1, 1, highest_trace_level));
+        file.line("adc_bailout 0");
+        file.line("ambient_light rgb scc_exposure*{}", pov_color(scene_.ambient));
+        file.dedent();
+        file.line("}}");
+        file.line("#default {{ finish {{ ambient 0 diffuse 0 specular 0 }} }}");
+        file.line("background {{ rgb scc_exposure*{} }}", pov_color(scene_.background));
+        note(Fidelity::exact, "ambient", "world", {}, "ambient_light");
+        note(Fidelity::exact, "background", "world", {}, "background");
+        note_settings();
+    }
+
+    void note_settings() {
+        const runtime::RenderSettings& settings = scene_.settings;
+        if (settings.depth + 1 > highest_trace_level) {
+            note(Fidelity::dropped, "depth", "render", {},
+                 fmt::format("POV-Ray follows at most {} mirror bounces", highest_trace_level - 1));
+        } else {
+            note(Fidelity::exact, "depth", "render", {}, "max_trace_level");
+        }
+        if (!settings.shadows) {
+            note(Fidelity::exact, "shadows", "render", {}, "every object is no_shadow");
+        }
+        if (settings.samples_per_axis > 1) {
+            const int n = settings.samples_per_axis;
+            note(Fidelity::exact, "samples", "render", {},
+                 fmt::format("a picture {} times larger, averaged over {} x {} pixels, is the sampled one", n,
+                             n, n));
+        }
+    }
+
+    void emit_frame_comment(Writer& file) {
+        if (frame_.is_world()) {
+            return;
+        }
+        const std::string how =
+            fmt::format("written as {} (p - {})", number(frame_.scale), pov_vector(frame_.origin));
+        file.line("// POV-Ray's tolerances are absolute lengths: world point p is {} here.", how);
+        note(Fidelity::exact, "world", "world", {},
+             fmt::format("POV-Ray's tolerances are absolute lengths: world point p is {}", how));
+    }
+
+    void emit_camera() {
+        const runtime::Camera<double>& c = scene_.camera;
+        const bool perspective = c.projection == runtime::Projection::perspective;
+        const double half = perspective ? c.half_height : c.half_height * frame_.scale;
+        const Vec3<double> up = (2 * half) * c.v;
+        // Windows are shifted by window heights; right is in window widths.
+        const Vec3<double> shift = (2 * half) * (c.shift_x * c.u + c.shift_y * c.v);
+        const Vec3<double> eye = frame_.point(c.eye);
+        camera_.line("camera {{");
+        camera_.indent();
+        camera_.line("{}", perspective ? "perspective" : "orthographic");
+        camera_.line("location {}", pov_vector(perspective ? eye : eye + shift));
+        camera_.line("direction {}", pov_vector(perspective ? shift - c.n : -c.n));
+        camera_.line("right {}*image_width/image_height", pov_vector((2 * half) * c.u));
+        camera_.line("up {}", pov_vector(up));
+        camera_.dedent();
+        camera_.line("}}");
+        note(Fidelity::exact, perspective ? "perspective_camera" : "orthographic_camera", "camera",
+             scene_.camera_span,
+             "location, direction, right and up; `near` and `far` do not matter to ray casting");
+    }
+
+    void emit_objects() {
+        for (const ir::Mesh& mesh : scene_.meshes) {
+            mesh_names_.push_back(mesh_identifiers_.make(mesh.name));
+        }
+        if (in_union_) {
+            objects_.line("// A union, because lights whose highlight has a colour of its own refer to it.");
+            objects_.line("#declare {} = union {{", pov_objects_name);
+            objects_.indent();
+        }
+        for (const ir::Object& object : scene_.objects) {
+            emit_object(object);
+        }
+        if (in_union_) {
+            objects_.dedent();
+            objects_.line("}}");
+            objects_.line("object {{ {} }}", pov_objects_name);
+        }
+    }
+
+    void emit_object(const ir::Object& object) {
+        const Placement placement = place(object, scene_, frame_);
+        const PovShape shape = pov_shape(object.shape, placement.shape_scale, mesh_names_);
+        declare_mesh_of(object);
+        objects_.line("// {}", comment_text(object.path + line_of(object.span)));
+        objects_.line("{} {{", shape.keyword);
+        objects_.indent();
+        for (const std::string& line : shape.lines) {
+            objects_.raw_line(line);
+        }
+        const auto [front, back] = object.sides;
+        std::vector<std::string> in_object, in_world;
+        const auto texture = [&](std::string_view keyword, std::uint32_t material) {
+            const PovMaterials::Use use = materials_.use(material, object);
+            const std::string own =
+                placement.shape_scale == 1 ? "" : " scale " + number(placement.shape_scale);
+            (use.in_world ? in_world : in_object)
+                .push_back(fmt::format("{} {{ {}{} }}", keyword, use.texture,
+                                       use.in_world ? frame_.texture_transform() : own));
+        };
+        texture("texture", shape.reversed ? back : front);
+        if (front != back) {
+            texture("interior_texture", shape.reversed ? front : back);
+        }
+        for (const std::string& line : in_object) {
+            objects_.raw_line(line);
+        }
+        if (const std::string transform = pov_transform(placement.transform); !transform.empty()) {
+            objects_.raw_line(transform);
+        }
+        for (const std::string& line : in_world) {
+            objects_.raw_line(line);
+        }
+        if (!scene_.settings.shadows) {
+            objects_.line("no_shadow");
+        }
+        objects_.dedent();
+        objects_.line("}}");
+        note_object(object, shape);
+    }
+
+    void declare_mesh_of(const ir::Object& object) {
+        const auto* mesh = std::get_if<runtime::Mesh<double>>(&object.shape);
+        if (mesh != nullptr && declared_meshes_.insert(mesh->mesh).second) {
+            declare_mesh(scene_.meshes[mesh->mesh], mesh_names_[mesh->mesh], meshes_);
+        }
+    }
+
+    void note_object(const ir::Object& object, const PovShape& shape) {
+        const std::string kind = std::visit(
+            [](const auto& s) { return std::string(std::decay_t<decltype(s)>::name); }, object.shape);
+        if (shape.precision.empty()) {
+            note(Fidelity::exact, kind, object.path, object.span, shape.keyword);
+        } else {
+            note(Fidelity::approximated, kind, object.path, object.span, shape.precision, shape.bound);
+        }
+        if (object.sides.front == object.sides.back) {
+            return;
+        }
+        if (has_smooth_normals(object)) {
+            note(Fidelity::approximated, "two_sided", object.path, object.span,
+                 "interior_texture; POV-Ray tells the sides by the interpolated normal, so that pixels near "
+                 "the "
+                 "silhouette may show the other material; bound in radiance",
+                 1);
+        } else {
+            note(Fidelity::exact, "two_sided", object.path, object.span, "interior_texture");
+        }
+    }
+
+    bool has_smooth_normals(const ir::Object& object) const {
+        if (const auto* triangle = std::get_if<runtime::Triangle<double>>(&object.shape)) {
+            return triangle->smooth;
+        }
+        const auto* mesh = std::get_if<runtime::Mesh<double>>(&object.shape);
+        return mesh != nullptr && !scene_.meshes[mesh->mesh].normals.empty();
+    }
+
+    std::string line_of(lang::Span span) const {
+        if (sources_ == nullptr || span == lang::Span{}) {
+            return "";
+        }
+        const lang::SourceFile& file = sources_->file(span.file);
+        const std::string& path = file.path();
+        return fmt::format(" ({}:{})", path.substr(path.find_last_of("/\\") + 1),
+                           file.position(span.begin).line);
+    }
+
+    const ir::Scene& scene_;
+    Ledger& ledger_;
+    const lang::SourceSet* sources_;
+    PovFrame frame_;
+    bool in_union_;
+    Writer camera_, functions_, textures_, meshes_, objects_, lights_;
+    PovMaterials materials_;
+    Identifiers mesh_identifiers_{"mesh_"};
+    std::vector<std::string> mesh_names_;
+    std::set<std::uint32_t> declared_meshes_;
+};
+
+} // namespace
+
+std::string emit_pov(const ir::Scene& scene, Ledger& ledger) {
+    return PovExport(scene, ledger, nullptr).run();
+}
+
+std::string emit_pov(const ir::Scene& scene, Ledger& ledger, const lang::SourceSet& sources) {
+    return PovExport(scene, ledger, &sources).run();
+}
+
+} // namespace scc::compiler

@@ -1,0 +1,132 @@
+#include "compiler/backends/pov_material.h"
+
+#include "compiler/backends/pov_frame.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace scc::compiler {
+
+using runtime::Affine;
+
+namespace {
+
+std::array<std::int32_t, 6> functions_of(const runtime::Phong<double>& phong) {
+    return {phong.ambient.function,  phong.diffuse.function, phong.specular.function,
+            phong.emission.function, phong.reflect.function, phong.shininess.function};
+}
+
+/// Reflectances and emissions are colours that one can see; exponents grow further.
+constexpr double largest_color = 8;
+constexpr double largest_shininess = 1e5;
+/// Stands for one that POV-Ray cannot calculate.
+constexpr double usual_shininess = 32;
+
+void include(InputRanges& all, const InputRanges& more) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        all[i] = {std::min(all[i].min, more[i].min), std::max(all[i].max, more[i].max)};
+    }
+}
+
+} // namespace
+
+PovMaterials::PovMaterials(const ir::Scene& scene, Writer& functions, Writer& textures, Ledger& ledger)
+    : scene_(scene), functions_(scene.functions, functions), textures_(textures), ledger_(ledger),
+      ranges_(scene.materials.size()), noted_(scene.materials.size()) {
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    for (InputRanges& ranges : ranges_) {
+        ranges.fill({inf, -inf});
+    }
+    for (const ir::Object& object : scene.objects) {
+        const InputRanges ranges = input_ranges(object, scene);
+        include(ranges_[object.sides.front], ranges);
+        include(ranges_[object.sides.back], ranges);
+    }
+}
+
+bool PovMaterials::reads(std::uint32_t material, ir::Input first, ir::Input last) const {
+    const auto functions = functions_of(scene_.materials[material].phong);
+    return std::any_of(functions.begin(), functions.end(), [&](std::int32_t f) {
+        return f != runtime::no_function && scene_.functions[static_cast<std::size_t>(f)].reads(first, last);
+    });
+}
+
+PovMaterials::Use PovMaterials::use(std::uint32_t material, const ir::Object& object) {
+    const bool in_world = reads(material, ir::Input::world_x, ir::Input::world_z);
+    const bool in_object = reads(material, ir::Input::p_x, ir::Input::p_z);
+    const std::string& name = scene_.materials[material].name;
+    if (in_world && in_object && !(object.world_from_object == Affine<double>{})) {
+        return declare(material, fmt::format("{}_of_{}", name, object.path), &object.world_from_object);
+    }
+    const auto [entry, is_new] = shared_.try_emplace(material);
+    if (is_new) {
+        entry->second = declare(material, name, nullptr);
+    }
+    entry->second.in_world = in_world && !in_object;
+    return entry->second;
+}
+
+PovMaterials::Use PovMaterials::declare(std::uint32_t material, const std::string& name,
+                                        const Affine<double>* world_from_object) {
+    const runtime::Phong<double>& phong = scene_.materials[material].phong;
+    PaintedPhong painted;
+    painted.ambient = color(phong.ambient, "ambient", material, world_from_object);
+    painted.diffuse = color(phong.diffuse, "diffuse", material, world_from_object);
+    painted.specular = color(phong.specular, "specular", material, world_from_object);
+    painted.emission = color(phong.emission, "emission", material, world_from_object);
+    painted.reflect = color(phong.reflect, "reflect", material, world_from_object);
+    painted.shininess = shininess(phong.shininess, material, world_from_object);
+    Outcome varying_shininess;
+    Use use{textures_.declare(name, painted, varying_shininess)};
+    if (varying_shininess.fidelity != Fidelity::exact) {
+        note(material, "phong shininess", varying_shininess);
+    }
+    note(material, "phong", {Fidelity::exact, "texture", 0});
+    noted_[material] = true;
+    return use;
+}
+
+Paint PovMaterials::color(const runtime::Varying<runtime::Rgb<double>>& value, std::string_view field,
+                          std::uint32_t material, const Affine<double>* world_from_object) {
+    if (value.function == runtime::no_function) {
+        return {value.value, {}, false, runtime::no_function};
+    }
+    return paint(value.function, field, material, largest_color, world_from_object).first;
+}
+
+Paint PovMaterials::shininess(const runtime::Varying<double>& value, std::uint32_t material,
+                              const Affine<double>* world_from_object) {
+    double constant = value.value;
+    if (value.function != runtime::no_function) {
+        auto [result, fidelity] =
+            paint(value.function, "shininess", material, largest_shininess, world_from_object);
+        if (fidelity != Fidelity::dropped) {
+            return result;
+        }
+        constant = usual_shininess;
+    }
+    return {{constant, constant, constant}, {}, false, runtime::no_function};
+}
+
+std::pair<Paint, Fidelity> PovMaterials::paint(std::int32_t function, std::string_view field,
+                                               std::uint32_t material, double largest,
+                                               const Affine<double>* world_from_object) {
+    auto [result, outcome] = functions_.paint(function, {ranges_[material], largest, world_from_object});
+    outcome.how = fmt::format("function `{}`: {}", scene_.functions[static_cast<std::size_t>(function)].name,
+                              outcome.how);
+    note(material, fmt::format("phong {}", field), outcome);
+    return {std::move(result), outcome.fidelity};
+}
+
+void PovMaterials::note(std::uint32_t material, std::string_view feature, const Outcome& outcome) {
+    if (!noted_[material]) {
+        const ir::Material& m = scene_.materials[material];
+        ledger_.push_back(
+            {outcome.fidelity, std::string(feature), m.name, m.span, outcome.how, outcome.bound});
+    }
+}
+
+} // namespace scc::compiler

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "compiler/backends/pov_function.h"
+#include "compiler/writer.h"
+
+#include <string>
+#include <vector>
+
+namespace scc::compiler {
+
+/// L7, L9, L15 with every field constant or a paint.
+struct PaintedPhong {
+    Paint ambient, diffuse, specular, emission, reflect, shininess;
+};
+
+/// Declares textures that are exactly a Phong material, with the fewest layers that can be.
+class PovTextures {
+public:
+    explicit PovTextures(Writer& out) : out_(out) {}
+
+    /// Returns the identifier of the texture. What has to be said of a varying shininess goes to `shininess`.
+    std::string declare(const std::string& name, const PaintedPhong& phong, Outcome& shininess);
+
+private:
+    std::string declare_varying_reflect(const std::string& name, const PaintedPhong& phong,
+                                        Outcome& shininess);
+    std::string declare_varying_shininess(const std::string& name, const PaintedPhong& phong,
+                                          Outcome& shininess);
+    std::string declare_blend(const std::string& name, const std::string& t,
+                              const std::vector<std::string>& textures);
+    std::string declare_layers(const std::string& name, const PaintedPhong& phong);
+
+    Writer& out_;
+    Identifiers names_{"m_"};
+};
+
+} // namespace scc::compiler

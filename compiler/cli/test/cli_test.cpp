@@ -1,0 +1,248 @@
+#include "compiler/cli/test/support.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <csignal>
+#include <cstdlib>
+#include <thread>
+#include <unistd.h>
+
+namespace scc::cli::test {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+TEST_F(CommandLine, HelpNamesEveryCommand) {
+    const auto result = scc({"--help"});
+    EXPECT_TRUE(result.ok());
+    for (const char* command :
+         {"check", "params", "render", "build", "export", "validate", "compare", "doctor"}) {
+        EXPECT_NE(result.out.find(command), std::string::npos) << command;
+    }
+}
+
+TEST_F(CommandLine, UsageMistakesExitWith2) {
+    write("s.scn", small_scene);
+    for (const Lines& arguments :
+         std::vector<Lines>{{},
+                            {"paint", "s.scn"},
+                            {"render", "s.scn"},
+                            {"render", "s.scn", "-o", "a.jpeg"},
+                            {"render", "s.scn", "-o", "-"},
+                            {"render", "s.scn", "-o", "a.png", "--size", "640"},
+                            {"render", "s.scn", "-o", "a.png", "--size", "0x5"},
+                            {"render", "s.scn", "-o", "a.png", "--samples", "5"},
+                            {"render", "s.scn", "-o", "a.png", "--crop", "5,5,1,1"},
+                            {"render", "s.scn", "-o", "a.png", "--crop", "0,0,5000,10"},
+                            {"render", "s.scn", "-o", "a.png", "--bits", "12"},
+                            {"render", "s.scn", "-o", "a.png", "--threads", "0"},
+                            {"render", "s.scn", "-o", "a.png", "--mode", "raster"},
+                            {"render", "s.scn", "-o", "a.png", "-D", "x"},
+                            {"render", "s.scn", "-o", "a.png", "--no-such-option"},
+                            {"export", "maya", "s.scn", "-o", "a"},
+                            {"validate", "s.scn", "--against", "maya", "--report", "r"}}) {
+        const auto result = scc(arguments);
+        std::string line;
+        for (const std::string& argument : arguments) {
+            line += argument + " ";
+        }
+        EXPECT_EQ(result.code, 2) << line << result.err;
+        EXPECT_FALSE(result.err.empty()) << line;
+    }
+    EXPECT_EQ(files(), (Lines{"s.scn"}));
+}
+
+TEST_F(CommandLine, WrongScenesExitWith1AndSayWhere) {
+    const std::pair<const char*, const char*> cases[] = {
+        {"sphere { radios = 1 }",
+         "s.scn:1:10: error: sphere has no field `radios`; did you mean `radius`? [unknown-field]"},
+        {"perspective_camera { fov_y = 40 }",
+         "s.scn:1:30: error: `fov_y` takes an angle, this is a number [angle-expected]"},
+        {"mesh { file = \"none.obj\" }", "s.scn:1:15: error: cannot read `none.obj`"},
+        {"print(\"abc)\n", "s.scn:1:7: error: "},
+        {"torus { }", "not supported yet"},
+    };
+    for (const auto& [text, message] : cases) {
+        write("s.scn", text);
+        const auto result = scc({"render", "s.scn", "-o", "a.png"});
+        EXPECT_EQ(result.code, 1) << text << "\n" << result.err;
+        EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+    }
+    EXPECT_EQ(files(), (Lines{"s.scn"}));
+}
+
+TEST_F(CommandLine, DeepNestingIsAClearError) {
+    write("s.scn", "let a = " + std::string(200, '(') + "1" + std::string(200, ')') + "\n" + small_scene);
+    const auto result = scc({"check", "s.scn"});
+    EXPECT_EQ(result.code, 1);
+    EXPECT_NE(result.err.find("[nesting-too-deep]"), std::string::npos) << result.err;
+}
+
+TEST_F(CommandLine, MissingSceneFileExitsWith3) {
+    const auto result = scc({"check", "none.scn"});
+    EXPECT_EQ(result.code, 3);
+    EXPECT_EQ(result.err, "scc: error: cannot read `none.scn`: there is no such file\n");
+}
+
+TEST_F(CommandLine, UnwritableOutputsExitWith3) {
+    write("s.scn", small_scene);
+    for (const char* output : {"no/such/folder/a.png", "/proc/a.png", "/dev/full.png/a.png"}) {
+        EXPECT_EQ(scc({"render", "s.scn", "-o", output, "--size", "8x8"}).code, 3) << output;
+    }
+    EXPECT_EQ(scc({"export", "pov", "s.scn", "-o", "no/such/folder/a.pov"}).code, 3);
+    EXPECT_EQ(scc({"build", "s.scn", "--emit", "ir", "-o", "/dev/full"}).code, 3);
+}
+
+TEST_F(CommandLine, NoCompilerExitsWith3) {
+    write("s.scn", small_scene);
+    const auto chosen = scc({"build", "s.scn", "-o", "prog"}, {{"CXX", "no-such-compiler"}});
+    EXPECT_EQ(chosen.code, 3);
+    EXPECT_NE(chosen.err.find("there is no C++ compiler `no-such-compiler`"), std::string::npos)
+        << chosen.err;
+    const auto none = scc({"build", "s.scn", "-o", "prog"}, {{"PATH", "/nowhere"}, {"CXX", ""}});
+    EXPECT_EQ(none.code, 3);
+    EXPECT_NE(none.err.find("apt install g++"), std::string::npos) << none.err;
+    EXPECT_FALSE(exists("prog"));
+}
+
+TEST_F(CommandLine, MissingRenderersAreSkippedAndNeverPassed) {
+    write("s.scn", small_scene);
+    const auto result =
+        scc({"validate", "s.scn", "--against", "pov,blender", "--report", "out", "--size", "16x12"},
+            {{"PATH", "/nowhere"}});
+    EXPECT_EQ(result.code, 3) << result.out << result.err;
+    EXPECT_NE(result.out.find("0 passed, 0 failed, 2 skipped"), std::string::npos) << result.out;
+}
+
+TEST_F(CommandLine, CheckReportsAllMistakesOfAllFilesInOneRun) {
+    write("a.scn", "sphere { radios = 1 }\nbox { mim = (0, 0, 0) }\n");
+    write("b.scn", "plane { normal = 3 }\n");
+    const auto result = scc({"check", "a.scn", "b.scn"});
+    EXPECT_EQ(result.code, 1);
+    for (const char* place : {"a.scn:1:10: error", "a.scn:2:7: error", "b.scn:1:18: error"}) {
+        EXPECT_NE(result.err.find(place), std::string::npos) << place << "\n" << result.err;
+    }
+}
+
+TEST_F(CommandLine, CheckWritesJson) {
+    write("a.scn", std::string("sphere { radios = 1 }\n") + small_scene);
+    const auto result = scc({"check", "--json", "a.scn"});
+    EXPECT_EQ(result.code, 1);
+    const auto json = nlohmann::json::parse(result.out);
+    ASSERT_EQ(json["diagnostics"].size(), 1U);
+    EXPECT_EQ(json["diagnostics"][0]["name"], "unknown-field");
+    EXPECT_EQ(json["diagnostics"][0]["place"]["line"], 1);
+    EXPECT_EQ(json["diagnostics"][0]["fix"]["replacement"], "radius");
+}
+
+TEST_F(CommandLine, StrictTurnsWarningsIntoErrors) {
+    write("a.scn", std::string("let unused = 3\n") + small_scene);
+    EXPECT_EQ(scc({"check", "a.scn"}).code, 0);
+    EXPECT_EQ(scc({"check", "--strict", "a.scn"}).code, 1);
+}
+
+TEST_F(CommandLine, ParamsAreListedAndSet) {
+    write("a.scn", std::string("param size: number = 1 in 0..5 \"of the ball\"\nsphere { center = (9, 0, 0), "
+                               "radius = size + 0.1 }\n") +
+                       small_scene);
+    EXPECT_EQ(scc({"params", "a.scn"}).out, "size: number = 1 in 0..5  // of the ball\n");
+    const auto json = nlohmann::json::parse(scc({"params", "--json", "a.scn", "-D", "size=2"}).out);
+    EXPECT_EQ(json["params"][0]["value"], "2");
+    EXPECT_NE(scc({"build", "a.scn", "--emit", "ir", "-o", "-", "-D", "size=2"}).out.find("radius = 2.1"),
+              std::string::npos);
+    EXPECT_EQ(scc({"check", "a.scn", "-D", "size=7"}).code, 1);
+    EXPECT_EQ(scc({"check", "a.scn", "-D", "sise=2"}).code, 1);
+}
+
+TEST_F(CommandLine, RendersEveryImageTypeWithStatistics) {
+    write("s.scn", small_scene);
+    for (const char* file : {"a.png", "a.exr", "a.pfm"}) {
+        const auto result = scc({"render", "s.scn", "-o", file, "--size", "32x24", "--stats", "-"});
+        ASSERT_TRUE(result.ok()) << result.err;
+        EXPECT_TRUE(exists(file));
+        const auto stats = nlohmann::json::parse(result.out);
+        EXPECT_EQ(stats["rays"]["primary"], 32 * 24);
+        EXPECT_EQ(stats["size"], nlohmann::json({32, 24}));
+        for (const char* key : {"schema", "scene", "samples", "threads", "precision", "isa", "times_ms",
+                                "mrays_per_s", "peak_rss_mb", "features"}) {
+            EXPECT_TRUE(stats.contains(key)) << key;
+        }
+    }
+}
+
+TEST_F(CommandLine, ThreadsCropAndRepetitionGiveTheSameBits) {
+    const std::string scene = example("lecture.scn");
+    ASSERT_TRUE(
+        scc({"render", scene, "-o", "one.pfm", "--size", "80x60", "--samples", "4", "--threads", "1"}).ok());
+    ASSERT_TRUE(
+        scc({"render", scene, "-o", "two.pfm", "--size", "80x60", "--samples", "4", "--threads", "3"}).ok());
+    ASSERT_TRUE(
+        scc({"render", scene, "-o", "crop.pfm", "--size", "80x60", "--samples", "4", "--crop", "10,20,50,21"})
+            .ok());
+    const std::string one = read("one.pfm");
+    EXPECT_EQ(one, read("two.pfm"));
+    // A PFM has its rows from the bottom, 12 bytes a pixel.
+    const std::string crop = read("crop.pfm");
+    const std::size_t row_bytes = 40 * 12;
+    EXPECT_EQ(crop.substr(crop.size() - row_bytes), one.substr(one.size() - (21 * 80 - 10) * 12, row_bytes));
+}
+
+TEST_F(CommandLine, InterruptedRenderLeavesNoPicture) {
+    // As a person would: the signal comes while the picture is being drawn.
+    std::thread interrupter([] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+        kill(getpid(), SIGINT);
+    });
+    struct sigaction ignore {};
+    struct sigaction before {};
+    ignore.sa_handler = [](int) {};
+    sigaction(SIGINT, &ignore, &before);
+    const auto result =
+        scc({"render", example("lecture.scn"), "-o", "a.exr", "--size", "8000x8000", "--samples", "400"});
+    sigaction(SIGINT, &before, nullptr);
+    interrupter.join();
+    EXPECT_EQ(result.end, validation::ProcessEnd::interrupted);
+    EXPECT_EQ(files(), Lines{});
+}
+
+TEST_F(CommandLine, BuiltProgramTakesTheRenderOptions) {
+    write("s.scn", small_scene);
+    ASSERT_TRUE(scc({"build", "s.scn", "-o", "prog"}).ok());
+    EXPECT_NE(start(path("prog"), {"--help"}).out.find("--size"), std::string::npos);
+    EXPECT_EQ(start(path("prog"), {}).code, 2);
+    EXPECT_EQ(start(path("prog"), {"-o", "a.xyz"}).code, 2);
+    EXPECT_EQ(start(path("prog"), {"-o", "no/a.png"}).code, 3);
+    const auto result = start(
+        path("prog"), {"-o", "a.exr", "--size", "20x10", "--samples", "4", "--threads", "2", "--stats", "-"});
+    ASSERT_TRUE(result.ok()) << result.err;
+    EXPECT_EQ(nlohmann::json::parse(result.out)["rays"]["primary"], 20 * 10 * 4);
+}
+
+TEST_F(CommandLine, ComparesPictures) {
+    write("s.scn", small_scene);
+    ASSERT_TRUE(scc({"render", "s.scn", "-o", "a.exr", "--size", "32x24"}).ok());
+    ASSERT_TRUE(scc({"render", "s.scn", "-o", "b.exr", "--size", "32x24", "--samples", "4"}).ok());
+    ASSERT_TRUE(scc({"render", "s.scn", "-o", "c.exr", "--size", "16x24"}).ok());
+    EXPECT_EQ(scc({"compare", "a.exr", "a.exr", "--max", "0"}).code, 0);
+    EXPECT_EQ(scc({"compare", "a.exr", "b.exr", "--max", "1e-9"}).code, 1);
+    EXPECT_EQ(scc({"compare", "a.exr", "b.exr", "--rmse", "0.5", "--diff", "d.png"}).code, 0);
+    EXPECT_TRUE(exists("d.png"));
+    EXPECT_GT(nlohmann::json::parse(scc({"compare", "a.exr", "b.exr", "--json"}).out)["all"]["max_error"]
+                  .get<double>(),
+              0);
+    EXPECT_EQ(scc({"compare", "a.exr", "c.exr"}).code, 1);
+    EXPECT_EQ(scc({"compare", "a.exr", "none.exr"}).code, 3);
+}
+
+TEST_F(CommandLine, EmitsEveryStage) {
+    write("s.scn", small_scene);
+    for (const char* stage : {"tokens", "ast", "ir", "cpp"}) {
+        const auto result = scc({"build", "s.scn", "--emit", stage, "-o", "-"});
+        EXPECT_TRUE(result.ok()) << stage << result.err;
+        EXPECT_NE(result.out.find("phere"), std::string::npos) << stage;
+    }
+}
+
+} // namespace
+} // namespace scc::cli::test

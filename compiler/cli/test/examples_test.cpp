@@ -1,0 +1,45 @@
+#include "compiler/cli/test/support.h"
+
+#include <gtest/gtest.h>
+
+/// Every example, end to end. A new example is a row here.
+namespace scc::cli::test {
+namespace {
+
+class Examples : public CommandLine, public testing::WithParamInterface<const char*> {
+protected:
+    std::string scene() const { return example(std::string(GetParam()) + ".scn"); }
+};
+
+INSTANTIATE_TEST_SUITE_P(All, Examples, testing::Values("lecture", "mesh", "transforms", "lights", "mirrors"),
+                         [](const auto& name) { return std::string(name.param); });
+
+TEST_P(Examples, CheckWithoutAWarning) {
+    const auto result = scc({"check", "--strict", scene()});
+    EXPECT_TRUE(result.ok()) << result.err;
+}
+
+TEST_P(Examples, GenericAndSpecialisedPicturesAreIdentical) {
+    for (const char* precision : {"double", "float"}) {
+        ASSERT_TRUE(scc({"build", scene(), "-o", "prog", "--precision", precision}).ok());
+        ASSERT_TRUE(scc({"render", scene(), "-o", "generic.pfm", "--size", "160x120", "--samples", "4",
+                         "--precision", precision})
+                        .ok());
+        ASSERT_TRUE(start(path("prog"), {"-o", "native.pfm", "--size", "160x120", "--samples", "4"}).ok());
+        EXPECT_TRUE(read("generic.pfm") == read("native.pfm")) << precision;
+    }
+}
+
+TEST_P(Examples, AgreeWithPovRayAndBlender) {
+    for (const char* renderer : {"povray", "blender"}) {
+        if (!validation::find_program(renderer)) {
+            GTEST_SKIP() << renderer << " is not installed";
+        }
+    }
+    const auto result = scc({"validate", scene(), "--against", "pov,blender,native", "--report", "out",
+                             "--size", "160x120", "--samples", "1"});
+    EXPECT_EQ(result.code, 0) << result.out << result.err;
+}
+
+} // namespace
+} // namespace scc::cli::test

@@ -1,0 +1,233 @@
+#include "compiler/lower.h"
+#include "compiler/test/support.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <unistd.h>
+
+namespace scc::compiler {
+namespace {
+
+using test::compile;
+using test::compile_shapes;
+using test::Compiled;
+
+TEST(Lower, TransformOfAGroupActsAfterTheChilds) {
+    const Compiled c = compile_shapes("group { transform = translate(1, 0, 0)\n"
+                                      "sphere { transform = scale(2, 2, 2) } }");
+    ASSERT_TRUE(c.fine) << c.messages;
+    ASSERT_EQ(c.scene.objects.size(), 1U);
+    const auto& m = c.scene.objects[0].world_from_object.m;
+    EXPECT_EQ(m[0][0], 2);
+    EXPECT_EQ(m[0][3], 1);
+}
+
+TEST(Lower, ChildWithoutMaterialTakesTheNearestEnclosingOne) {
+    const Compiled c = compile_shapes(
+        "let red = phong { diffuse = rgb(1, 0, 0) }\nlet blue = phong { diffuse = rgb(0, 0, 1) }\n"
+        "group { material = red\n sphere { }\n group { material = blue\n box { }\n disc { material = red } } "
+        "}\n"
+        "plane { }");
+    ASSERT_TRUE(c.fine) << c.messages;
+    const auto name = [&](std::size_t i) { return c.scene.materials[c.scene.objects[i].sides.front].name; };
+    EXPECT_EQ(name(0), "red");
+    EXPECT_EQ(name(1), "blue");
+    EXPECT_EQ(name(2), "red");
+    EXPECT_EQ(name(3), "plane");
+    EXPECT_EQ(c.scene.materials[c.scene.objects[3].sides.front].phong.diffuse.value,
+              (runtime::Rgb<double>{0.8, 0.8, 0.8}));
+}
+
+TEST(Lower, AmbientDefaultsToTheDiffuseValueEvenIfItIsAFunction) {
+    const Compiled c =
+        compile_shapes("sphere { material = phong { diffuse = fn(s: surface) = rgb(s.p.x, 0, 0) } }");
+    ASSERT_TRUE(c.fine) << c.messages;
+    const auto& p = c.scene.materials[0].phong;
+    EXPECT_GE(p.diffuse.function, 0);
+    EXPECT_EQ(p.ambient.function, p.diffuse.function);
+}
+
+TEST(Lower, FunctionThatDoesNotDependOnThePointBecomesAConstant) {
+    const Compiled c =
+        compile_shapes("sphere { material = phong { diffuse = fn(s: surface) = rgb(0.25, 0.5, 1) } }");
+    ASSERT_TRUE(c.fine) << c.messages;
+    EXPECT_TRUE(c.scene.functions.empty());
+    EXPECT_EQ(c.scene.materials[0].phong.diffuse.value, (runtime::Rgb<double>{0.25, 0.5, 1}));
+}
+
+TEST(Lower, PathsAreUniqueAndNumberedOnlyWhereSiblingsShareAName) {
+    const Compiled c = compile_shapes("let leg = cylinder { radius = 0.1 }\n"
+                                      "group { name = \"table\"\n leg\n leg\n box { } }\nsphere { name = "
+                                      "\"a/b\" }\ngroup { name = \"a\"\n sphere { name = \"b\" } }");
+    ASSERT_TRUE(c.fine) << c.messages;
+    std::vector<std::string> paths;
+    for (const ir::Object& object : c.scene.objects) {
+        paths.push_back(object.path);
+    }
+    EXPECT_EQ(paths, (std::vector<std::string>{"table/leg[0]", "table/leg[1]", "table/box", "a/b", "a/b 2"}));
+}
+
+TEST(Lower, CameraFrameFollowsTheLecture) {
+    const Compiled c = compile("perspective_camera { eye = (0, 0, 10), target = (0, 0, 0), fov_y = 90deg "
+                               "}\npoint_light { }\nsphere { }");
+    ASSERT_TRUE(c.fine) << c.messages;
+    EXPECT_EQ(c.scene.camera.n, (runtime::Vec3<double>{0, 0, 1}));
+    EXPECT_EQ(c.scene.camera.u, (runtime::Vec3<double>{1, 0, 0}));
+    EXPECT_EQ(c.scene.camera.v, (runtime::Vec3<double>{0, 1, 0}));
+    EXPECT_NEAR(c.scene.camera.half_height, 1, 1e-15);
+}
+
+TEST(Lower, SceneWithoutCameraAndLightGetsBothAndIsToldSo) {
+    const Compiled c = compile("sphere { center = (5, 0, 0) }");
+    ASSERT_TRUE(c.fine);
+    EXPECT_NE(c.messages.find("[no-camera]"), std::string::npos) << c.messages;
+    EXPECT_NE(c.messages.find("[no-light]"), std::string::npos) << c.messages;
+    ASSERT_EQ(c.scene.lights.size(), 1U);
+    // The sphere's centre lies on the line of sight.
+    const auto to_center = runtime::Vec3<double>{5, 0, 0} - c.scene.camera.eye;
+    EXPECT_NEAR(dot(to_center, c.scene.camera.u), 0, 1e-9);
+    EXPECT_NEAR(dot(to_center, c.scene.camera.v), 0, 1e-9);
+}
+
+TEST(Lower, LightSaysWhereItIsInOneWay) {
+    const Compiled both =
+        compile("directional_light { direction = (0, -1, 0), towards = (0, 1, 0) }\nperspective_camera { }");
+    EXPECT_EQ(both.messages, "test.scn:1:1: error: this light has both `direction` and `towards`; one of "
+                             "them says where it is [impossible-light]\n"
+                             "    1 | directional_light { direction = (0, -1, 0), towards = (0, 1, 0) }\n"
+                             "      | ^~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~\n");
+    EXPECT_FALSE(compile("directional_light { }\nperspective_camera { }").fine);
+}
+
+TEST(Lower, ReportsShapesThatEncloseNothing) {
+    for (const char* shape :
+         {"box { min = (0, 0, 0), max = (1, 0, 1) }", "cylinder { from = (1, 1, 1), to = (1, 1, 1) }",
+          "disc { radius = 1, hole = 1 }", "triangle { points = [(0, 0, 0), (1, 1, 1), (2, 2, 2)] }",
+          "triangle { points = [(0, 0, 0), (1, 1, 1)] }", "sphere { transform = scale(1, 1, 0) }"}) {
+        const Compiled c = compile_shapes(shape);
+        EXPECT_FALSE(c.fine) << shape;
+    }
+    EXPECT_NE(compile_shapes("disc { radius = 1, hole = 2 }").messages.find("test.scn:1:1: error: "),
+              std::string::npos);
+}
+
+TEST(Lower, ReportsImpossibleCameras) {
+    EXPECT_FALSE(compile("perspective_camera { eye = (1, 1, 1), target = (1, 1, 1) }\npoint_light { }").fine);
+    EXPECT_FALSE(compile("perspective_camera { eye = (0, 5, 0), up = (0, 2, 0) }\npoint_light { }").fine);
+    EXPECT_FALSE(compile("perspective_camera { near = 2, far = 1 }\npoint_light { }").fine);
+}
+
+TEST(Lower, CameraIsChosenByName) {
+    const std::string text = "let left = perspective_camera { eye = (-9, 0, 0) }\nlet right = "
+                             "orthographic_camera { eye = (9, 0, 0) }\n"
+                             "left\nright\npoint_light { }\nsphere { }\n";
+    EXPECT_EQ(compile(text).scene.camera.eye.x, -9);
+    EXPECT_EQ(compile(text, {.name = "", .assets = {}, .camera = "right"}).scene.camera.eye.x, 9);
+    EXPECT_EQ(compile(text + "render { camera = \"right\" }").scene.camera.eye.x, 9);
+    const Compiled c = compile(text + "render { camera = \"middle\" }");
+    EXPECT_NE(c.messages.find("there is no camera `middle`; there is `left`, `right` [unknown-camera]"),
+              std::string::npos)
+        << c.messages;
+}
+
+TEST(Lower, DisabledLightsAreLeftOut) {
+    const Compiled c = compile("point_light { enabled = false }\nperspective_camera { }\nsphere { }");
+    ASSERT_TRUE(c.fine) << c.messages;
+    EXPECT_TRUE(c.scene.lights.empty());
+}
+
+// ---- meshes --------------------------------------------------------------------------------------------
+
+class LowerMesh : public testing::Test {
+protected:
+    void SetUp() override {
+        folder_ = std::filesystem::path(testing::TempDir()) / ("scc_lower_" + std::to_string(getpid()));
+        std::filesystem::create_directories(folder_ / "inner");
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+
+    void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
+    Compiled mesh(const std::string& name, const std::string& fields = "") {
+        LowerOptions options;
+        options.assets.scene_folder = folder_ / "inner";
+        return compile("mesh { file = \"" + name + "\" " + fields +
+                           "}\nperspective_camera { }\npoint_light { }",
+                       options);
+    }
+
+    std::filesystem::path folder_;
+    const std::string square_ = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+};
+
+TEST_F(LowerMesh, PolygonsBecomeTriangles) {
+    write("inner/square.obj", square_);
+    const Compiled c = mesh("square.obj");
+    ASSERT_TRUE(c.fine) << c.messages;
+    ASSERT_EQ(c.scene.meshes.size(), 1U);
+    EXPECT_EQ(c.scene.meshes[0].indices.size(), 6U);
+    EXPECT_TRUE(c.scene.meshes[0].normals.empty());
+}
+
+TEST_F(LowerMesh, SmoothNormalsAreAveragedAtTheVertices) {
+    write("inner/roof.obj",
+          "v 0 0 -1\nv 0 0 1\nv 1 -1 -1\nv 1 -1 1\nv -1 -1 -1\nv -1 -1 1\nf 1 2 4 3\nf 2 1 5 6\n");
+    const Compiled c = mesh("roof.obj", ", normals = \"smooth\"");
+    ASSERT_TRUE(c.fine) << c.messages;
+    const ir::Mesh& m = c.scene.meshes[0];
+    EXPECT_NEAR(m.normals[0], 0, 1e-6); // at the ridge the normal stands up
+    EXPECT_NEAR(m.normals[1], 1, 1e-6);
+    EXPECT_NEAR(m.normals[2], 0, 1e-6);
+}
+
+TEST_F(LowerMesh, MissingFileIsReportedAtItsPlace) {
+    EXPECT_EQ(mesh("none.obj").messages, "test.scn:1:15: error: cannot read `none.obj`: there is no such "
+                                         "file in the scene's folder [missing-asset]\n"
+                                         "    1 | mesh { file = \"none.obj\" }\n"
+                                         "      |               ^~~~~~~~~~\n");
+}
+
+TEST_F(LowerMesh, FilesOutsideTheScenesFolderAreNotRead) {
+    write("square.obj", square_);
+    EXPECT_NE(mesh("../square.obj").messages.find("[asset-outside]"), std::string::npos);
+    std::filesystem::create_symlink(folder_ / "square.obj", folder_ / "inner/link.obj");
+    EXPECT_NE(mesh("link.obj").messages.find("[asset-outside]"), std::string::npos);
+}
+
+TEST_F(LowerMesh, TruncatedAndBrokenFilesAreReported) {
+    const std::pair<const char*, const char*> cases[] = {
+        {"v 0 0 0\nv 1 0 0\nv 1 1 0\n", "has no faces"},
+        {"v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2",
+         "line 4 is a face with fewer than three corners; is the file cut short?"},
+        {"v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 7\n",
+         "triangle 1 uses vertex 7, but there are 3; is the file cut short?"},
+        {"v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 2\n", "has no triangle with an area"},
+        {"", "has no faces"}};
+    for (const auto& [text, message] : cases) {
+        write("inner/broken.obj", text);
+        const Compiled c = mesh("broken.obj");
+        EXPECT_FALSE(c.fine) << text;
+        EXPECT_NE(c.messages.find(std::string("`broken.obj`: ") + message), std::string::npos) << c.messages;
+    }
+    write("inner/half.obj", square_ + "f 1 2 3");
+    EXPECT_NE(mesh("half.obj").messages.find("warning: `half.obj`: the last line has no end"),
+              std::string::npos);
+}
+
+TEST_F(LowerMesh, OneFileIsReadOnceForManyObjects) {
+    write("inner/square.obj", square_);
+    LowerOptions options;
+    options.assets.scene_folder = folder_ / "inner";
+    const Compiled c =
+        compile("for (i in 0..5) { mesh { file = \"square.obj\", transform = translate(i, 0, 0) } }\n"
+                "perspective_camera { }\npoint_light { }",
+                options);
+    ASSERT_TRUE(c.fine) << c.messages;
+    EXPECT_EQ(c.scene.objects.size(), 5U);
+    EXPECT_EQ(c.scene.meshes.size(), 1U);
+}
+
+} // namespace
+} // namespace scc::compiler

@@ -1,0 +1,262 @@
+#include "lang/evaluator.h"
+#include "lang/transforms.h"
+#include "lang/wording.h"
+
+#include <algorithm>
+
+namespace scc::lang {
+namespace {
+
+bool is_error(const Value& value) {
+    return std::holds_alternative<ErrorValue>(value.v);
+}
+
+const FramePtr& frame_at(const FramePtr& frame, std::uint32_t depth) {
+    const FramePtr* at = &frame;
+    for (; depth > 0; --depth) {
+        at = &(*at)->parent;
+    }
+    return *at;
+}
+
+bool has_zero(const Components& divisor) {
+    return std::any_of(divisor.v.begin(), divisor.v.begin() + divisor.count,
+                       [](const Scalar& s) { return s.is_constant() && s.value == 0; });
+}
+
+} // namespace
+
+bool Evaluator::step(Span span) {
+    if (stopped_) {
+        return false;
+    }
+    if (++steps_ > limits_.steps) {
+        stop(Diag::steps_exceeded, span, limits_.steps);
+    } else if (stack_.exhausted()) {
+        stop(Diag::too_deep, span, 0);
+    }
+    return !stopped_;
+}
+
+/// Ends the run: everything after this gives ErrorValue at once.
+void Evaluator::stop(Diag kind, Span span, std::uint64_t limit) {
+    if (!stopped_) {
+        report_.report(kind, span, limit);
+        stopped_ = true;
+    }
+}
+
+Value Evaluator::depends_on_surface(Span span, std::string_view what, std::string_view rule) {
+    report_.report(Diag::depends_on_surface, span, what, rule);
+    return failed();
+}
+
+Value Evaluator::eval(const Code& code, const FramePtr& frame) {
+    if (!step(code.span)) {
+        return failed();
+    }
+    return std::visit([&](const auto& node) { return run(node, code.span, frame); }, code.node);
+}
+
+Value Evaluator::cell(const FramePtr& frame, std::uint32_t index) {
+    if (!frame->cells[index].ready) {
+        frame->set(index, eval(*(*frame->code)[index], frame));
+    }
+    return frame->cells[index].value;
+}
+
+Value Evaluator::run(const code::Constant& node, Span, const FramePtr&) {
+    return node.value;
+}
+
+Value Evaluator::run(const code::Variable& node, Span, const FramePtr& frame) {
+    return cell(frame_at(frame, node.depth), node.cell);
+}
+
+Value Evaluator::run(const code::FunctionValue& node, Span, const FramePtr& frame) {
+    const FramePtr& around = frame_at(frame, node.depth);
+    if (!around->is_captured) {
+        around->is_captured = true;
+        around->captured->add(around);
+    }
+    return {std::make_shared<const Closure>(Closure{node.function, around})};
+}
+
+Value Evaluator::run(const code::Unary& node, Span, const FramePtr& frame) {
+    const Components operand = components(eval(*node.operand, frame));
+    const ScalarOp op = node.op == ast::UnaryOp::minus ? ScalarOp::neg : ScalarOp::logical_not;
+    return each(math_, op, operand.kind, operand);
+}
+
+Value Evaluator::run(const code::Binary& node, Span span, const FramePtr& frame) {
+    if (node.op == ast::BinaryOp::logical_and || node.op == ast::BinaryOp::logical_or) {
+        return logical(node, frame);
+    }
+    const Value left = eval(*node.left, frame);
+    const Value right = eval(*node.right, frame);
+    if (is_error(left) || is_error(right)) {
+        return failed();
+    }
+    return operate(node, left, right, span);
+}
+
+Value Evaluator::logical(const code::Binary& node, const FramePtr& frame) {
+    const bool is_and = node.op == ast::BinaryOp::logical_and;
+    const Value left = eval(*node.left, frame);
+    const auto* first = std::get_if<BoolValue>(&left.v);
+    if (!first) {
+        return failed();
+    }
+    if (first->v.is_constant()) {
+        return (first->v.value != 0) == is_and ? eval(*node.right, frame) : left;
+    }
+    ++unknown_conditions_;
+    const Value right = eval(*node.right, frame);
+    --unknown_conditions_;
+    const auto* second = std::get_if<BoolValue>(&right.v);
+    if (!second) {
+        return failed();
+    }
+    if (second->v.is_constant()) {
+        return (second->v.value != 0) == is_and ? left : right;
+    }
+    return boolean(math_.apply(is_and ? ScalarOp::logical_and : ScalarOp::logical_or, first->v, second->v));
+}
+
+Value Evaluator::operate(const code::Binary& node, const Value& left, const Value& right, Span span) {
+    if (node.op == ast::BinaryOp::then) {
+        return {then(std::get<TransformValue>(left.v), std::get<TransformValue>(right.v))};
+    }
+    if (node.op == ast::BinaryOp::range) {
+        const Scalar& begin = std::get<NumberValue>(left.v).v;
+        const Scalar& end = std::get<NumberValue>(right.v).v;
+        if (!begin.is_constant() || !end.is_constant()) {
+            return depends_on_surface(span, "a bound of this range",
+                                      "a per-point function loops over known ranges");
+        }
+        return {RangeValue{begin.value, end.value}};
+    }
+    const bool divides = node.op == ast::BinaryOp::div || node.op == ast::BinaryOp::mod;
+    if (divides && has_zero(components(right))) {
+        report_.report(Diag::division_by_zero, node.right->span);
+        return failed();
+    }
+    return binary(math_, node.op, left, right);
+}
+
+Value Evaluator::run(const code::Tuple& node, Span, const FramePtr& frame) {
+    std::array<Scalar, 3> v{};
+    bool complete = true;
+    for (std::size_t i = 0; i < node.elements.size(); ++i) {
+        const Value element = eval(*node.elements[i], frame);
+        complete = complete && !is_error(element);
+        v[i] = components(element).v[0];
+    }
+    return complete ? compose(node.elements.size() == 2 ? TypeKind::vec2 : TypeKind::vec3, v) : failed();
+}
+
+Value Evaluator::run(const code::List& node, Span, const FramePtr& frame) {
+    auto list = std::make_shared<std::vector<Value>>();
+    bool complete = true;
+    for (const CodePtr& element : node.elements) {
+        list->push_back(eval(*element, frame));
+        complete = complete && !is_error(list->back());
+    }
+    return complete ? Value{ListPtr(std::move(list))} : failed();
+}
+
+Value Evaluator::run(const code::Comprehension& node, Span span, const FramePtr& frame) {
+    const Value range = eval(*node.range, frame);
+    auto list = std::make_shared<std::vector<Value>>();
+    bool complete = !is_error(range);
+    Value current;
+    report_.enter_loop(node.variable_span, node.variable, &current);
+    iterate(range, node.range->span, [&](const Value& value) {
+        if (list->size() >= limits_.list_length) {
+            stop(Diag::list_too_long, span, limits_.list_length);
+            return;
+        }
+        current = value;
+        const FramePtr inner = std::make_shared<Frame>(frame, node.cells, frame->captured);
+        inner->set(0, value);
+        list->push_back(eval(*node.element, inner));
+        complete = complete && !is_error(list->back());
+    });
+    report_.leave_loop();
+    return complete && !stopped_ ? Value{ListPtr(std::move(list))} : failed();
+}
+
+Value Evaluator::run(const code::Conditional& node, Span span, const FramePtr& frame) {
+    const Value condition = eval(*node.condition, frame);
+    const auto* truth = std::get_if<BoolValue>(&condition.v);
+    if (!truth) {
+        return failed();
+    }
+    if (truth->v.is_constant()) {
+        return eval(truth->v.value != 0 ? *node.yes : *node.no, frame);
+    }
+    ++unknown_conditions_;
+    const Value yes = eval(*node.yes, frame);
+    const Value no = eval(*node.no, frame);
+    --unknown_conditions_;
+    return is_error(yes) || is_error(no) ? failed() : select(truth->v, yes, no, span);
+}
+
+Value Evaluator::select(const Scalar& condition, const Value& yes, const Value& no, Span span) {
+    const Components a = components(yes);
+    const Components b = components(no);
+    if (a.kind == TypeKind::error) {
+        return depends_on_surface(span, "this choice",
+                                  "a surface chooses between numbers, vectors and colors");
+    }
+    std::array<Scalar, 3> v{};
+    for (std::size_t i = 0; i < a.count; ++i) {
+        v[i] = math_.select(condition, a[i], b[i]);
+    }
+    return compose(a.kind, v);
+}
+
+Value Evaluator::run(const code::Component& node, Span, const FramePtr& frame) {
+    const Components object = components(eval(*node.object, frame));
+    return object.kind == TypeKind::error ? failed() : number(object.v[node.index]);
+}
+
+Value Evaluator::run(const code::SurfaceInput& node, Span, const FramePtr& frame) {
+    if (is_error(eval(*node.object, frame))) {
+        return failed();
+    }
+    std::array<Scalar, 3> v;
+    constexpr std::array<std::string_view, 3> axes{".x", ".y", ".z"};
+    for (std::size_t i = 0; i < 3; ++i) {
+        v[i] = {0, math_.builder()->input(std::string(node.name) + std::string(axes[i]))};
+    }
+    return compose(TypeKind::vec3, v);
+}
+
+Value Evaluator::run(const code::Index& node, Span, const FramePtr& frame) {
+    const Value object = eval(*node.object, frame);
+    const Value position = eval(*node.index, frame);
+    if (is_error(object) || is_error(position)) {
+        return failed();
+    }
+    const std::vector<Value>& list = *std::get<ListPtr>(object.v);
+    const Scalar& index = std::get<NumberValue>(position.v).v;
+    if (!index.is_constant()) {
+        return depends_on_surface(node.index->span, "this index", "a list takes a known index");
+    }
+    if (std::floor(index.value) != index.value) {
+        report_.report(Diag::index_out_of_range, node.index->span, to_string(position),
+                       "an index is a whole number");
+        return failed();
+    }
+    if (!(index.value >= 0 && index.value < static_cast<double>(list.size()))) {
+        report_.report(Diag::index_out_of_range, node.index->span, to_string(position),
+                       list.empty()
+                           ? "the list is empty"
+                           : fmt::format("the list has {}, counted from 0", counted(list.size(), "element")));
+        return failed();
+    }
+    return list[static_cast<std::size_t>(index.value)];
+}
+
+} // namespace scc::lang

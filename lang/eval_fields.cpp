@@ -1,0 +1,101 @@
+#include "lang/evaluator.h"
+#include "lang/transforms.h"
+#include "lang/wording.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace scc::lang {
+namespace {
+
+/// Digits that are lost in undoing a transform are those of its condition; half of a double's are left at
+/// this one.
+constexpr double worst_condition = 1e8;
+
+bool is_square(double value) {
+    const double root = std::round(std::sqrt(value));
+    return root * root == value;
+}
+
+bool component_within(const Limits& limits, double value) {
+    const bool above = limits.min_excluded ? value > limits.min : value >= limits.min;
+    return above && value <= limits.max && (!limits.integer || std::floor(value) == value) &&
+           (!limits.square || is_square(value));
+}
+
+bool within(const Limits& limits, const Components& parts) {
+    bool nonzero = false;
+    for (std::size_t i = 0; i < parts.count; ++i) {
+        if (!component_within(limits, parts.v[i].value)) {
+            return false;
+        }
+        nonzero = nonzero || parts.v[i].value != 0;
+    }
+    return nonzero || !limits.nonzero_vector;
+}
+
+/// The limits in words, for a field whose row has none.
+std::string rule_of(const Field& field) {
+    const Limits& limits = field.limits;
+    if (!limits.rule.empty()) {
+        return std::string(limits.rule);
+    }
+    const TypeKind kind = field.type.kind == TypeKind::angle ? TypeKind::angle : TypeKind::number;
+    const auto text = [kind](double value) { return to_string(compose(kind, {Scalar{value}})); };
+    std::string rule = in_code(field.name) + " is " +
+                       (limits.nonzero_vector ? "not the zero vector"
+                        : limits.square       ? "a square number"
+                        : limits.integer      ? "a whole number"
+                                              : "");
+    const char* joint = rule.ends_with(' ') ? "" : ", ";
+    if (std::isfinite(limits.min)) {
+        rule += joint + std::string(limits.min_excluded ? "greater than " : "at least ") + text(limits.min);
+        joint = " and ";
+    }
+    return std::isfinite(limits.max) ? rule + joint + "at most " + text(limits.max) : rule;
+}
+
+} // namespace
+
+void Evaluator::check_field(const Field& field, const Value& value, Span span) {
+    if (const auto* text = std::get_if<std::string>(&value.v)) {
+        const auto& choices = field.choices;
+        if (!choices.empty() && std::find(choices.begin(), choices.end(), *text) == choices.end()) {
+            report_.report(Diag::unknown_choice, span, field.name, to_string(value), choice_rule(field));
+        }
+    } else if (const auto* list = std::get_if<ListPtr>(&value.v)) {
+        for (std::size_t i = 0; i < (*list)->size() && step(span); ++i) {
+            check_field(field, (**list)[i], span);
+        }
+    } else if (const auto* transform = std::get_if<TransformValue>(&value.v)) {
+        check_transform(*transform, span);
+    } else {
+        check_number(field, value, span);
+    }
+}
+
+void Evaluator::check_number(const Field& field, const Value& value, Span span) {
+    const Components parts = components(value);
+    if (parts.count == 0 || parts.kind == TypeKind::boolean) {
+        return;
+    }
+    const bool finite = std::all_of(parts.v.begin(), parts.v.begin() + parts.count,
+                                    [](const Scalar& s) { return std::isfinite(s.value); });
+    if (!finite) {
+        report_.report(Diag::not_finite, span, field.name, to_string(value));
+    } else if (!within(field.limits, parts)) {
+        report_.report(Diag::value_out_of_range, span, field.name, to_string(value), rule_of(field));
+    }
+}
+
+/// `scale` and `matrix` report what they flatten themselves; joined with `then`, harmless transforms can do
+/// so too.
+void Evaluator::check_transform(const TransformValue& transform, Span span) {
+    if (!inverse(transform)) {
+        report_.report(Diag::no_inverse, span, "");
+    } else if (const double stretch = condition(transform); stretch > worst_condition) {
+        report_.report(Diag::ill_conditioned_transform, span, std::lround(std::log10(stretch)));
+    }
+}
+
+} // namespace scc::lang

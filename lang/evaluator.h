@@ -1,0 +1,136 @@
+#pragma once
+
+#include "lang/builtins.h"
+#include "lang/check.h"
+#include "lang/code.h"
+#include "lang/components.h"
+#include "lang/frame.h"
+#include "lang/run_report.h"
+#include "lang/scalar_math.h"
+#include "lang/stack_guard.h"
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace scc::lang {
+
+/// Runs checked code. What fails becomes an ErrorValue, which passes through everything silently.
+class Evaluator {
+public:
+    /// With a builder, operations on unknown scalars go there, and no shapes can be built.
+    Evaluator(const EvaluationLimits& limits, RunReport& report, SymbolBuilder* builder = nullptr)
+        : limits_(limits), report_(report), math_(builder) {}
+
+    /// The things on the top level of a file.
+    std::vector<ThingPtr> run(const BodyCode& file, const FramePtr& globals);
+    std::vector<Param> params(const std::vector<ParamCode>& params, const FramePtr& globals);
+    Value call(const FunctionCode& function, const FramePtr& frame, std::vector<Value> arguments, Span span);
+
+    std::vector<std::string> take_prints() { return std::move(prints_); }
+
+private:
+    /// The thing or file that items go into.
+    struct Target {
+        std::vector<FieldValue>* fields;
+        std::vector<ThingPtr>* children;
+    };
+
+    Value eval(const Code& code, const FramePtr& frame);
+    Value cell(const FramePtr& frame, std::uint32_t index);
+    bool step(Span span);
+    void stop(Diag kind, Span span, std::uint64_t limit);
+    Value failed() { return {ErrorValue{}}; }
+    bool tracing() const { return math_.builder() != nullptr; }
+    Value depends_on_surface(Span span, std::string_view what, std::string_view rule);
+
+    // eval_expressions.cpp
+    Value run(const code::Constant& node, Span span, const FramePtr& frame);
+    Value run(const code::Variable& node, Span span, const FramePtr& frame);
+    Value run(const code::FunctionValue& node, Span span, const FramePtr& frame);
+    Value run(const code::Unary& node, Span span, const FramePtr& frame);
+    Value run(const code::Binary& node, Span span, const FramePtr& frame);
+    Value run(const code::Tuple& node, Span span, const FramePtr& frame);
+    Value run(const code::List& node, Span span, const FramePtr& frame);
+    Value run(const code::Comprehension& node, Span span, const FramePtr& frame);
+    Value run(const code::Conditional& node, Span span, const FramePtr& frame);
+    Value run(const code::Component& node, Span span, const FramePtr& frame);
+    Value run(const code::SurfaceInput& node, Span span, const FramePtr& frame);
+    Value run(const code::Index& node, Span span, const FramePtr& frame);
+    Value logical(const code::Binary& node, const FramePtr& frame);
+    Value operate(const code::Binary& node, const Value& left, const Value& right, Span span);
+    Value select(const Scalar& condition, const Value& yes, const Value& no, Span span);
+
+    // eval_calls.cpp
+    Value run(const code::BuiltinCall& node, Span span, const FramePtr& frame);
+    Value run(const code::ListCall& node, Span span, const FramePtr& frame);
+    Value run(const code::Call& node, Span span, const FramePtr& frame);
+    Value filtered(const std::vector<Value>& list, const Closure& function, Span span);
+    Value mapped(const std::vector<Value>& list, const Closure& function, Span span);
+    Value sum(const std::vector<Value>& list, const Value& zero, Span span);
+    bool recurses_by_surface(const FunctionCode& function) const;
+
+    // eval_things.cpp
+    Value run(const code::Construct& node, Span span, const FramePtr& frame);
+    void body(const BodyCode& body, const FramePtr& frame, const Target& target);
+    void items(const std::vector<ItemCode>& items, const FramePtr& frame, const Target& target);
+    void item(const FieldCode& item, const FramePtr& frame, const Target& target);
+    void item(const ChildCode& item, const FramePtr& frame, const Target& target);
+    void item(const ForCode& item, const FramePtr& frame, const Target& target);
+    void item(const IfCode& item, const FramePtr& frame, const Target& target);
+    void item(const AssertCode& item, const FramePtr& frame, const Target& target);
+    void item(const PrintCode& item, const FramePtr& frame, const Target& target);
+    void add_child(const Value& value, Span span, const Target& target);
+    Param param(const ParamCode& code, const FramePtr& globals);
+    /// Calls `each` with every value of a range or list until something stops the run.
+    template <class Each>
+    void iterate(const Value& range, Span span, const Each& each);
+
+    // eval_fields.cpp
+    void check_field(const Field& field, const Value& value, Span span);
+    void check_number(const Field& field, const Value& value, Span span);
+    void check_transform(const TransformValue& transform, Span span);
+
+    struct Activation {
+        const FunctionCode* function;
+        std::uint32_t unknown_conditions;
+    };
+
+    EvaluationLimits limits_;
+    RunReport& report_;
+    ScalarMath math_;
+    StackGuard stack_;
+    std::uint64_t steps_ = 0;
+    std::uint64_t children_ = 0;
+    std::uint64_t printed_ = 0;
+    bool stopped_ = false;
+    std::uint32_t unknown_conditions_ = 0; ///< around what is being evaluated
+    std::vector<Activation> calls_;
+    std::vector<std::string> prints_;
+};
+
+template <class Each>
+void Evaluator::iterate(const Value& range, Span span, const Each& each) {
+    if (const auto* list = std::get_if<ListPtr>(&range.v)) {
+        const ListPtr keep = *list;
+        for (std::size_t i = 0; i < keep->size() && step(span); ++i) {
+            each((*keep)[i]);
+        }
+        return;
+    }
+    const auto* numbers = std::get_if<RangeValue>(&range.v);
+    if (!numbers) {
+        return;
+    }
+    if (std::floor(numbers->begin) != numbers->begin || std::floor(numbers->end) != numbers->end) {
+        report_.report(Diag::fractional_range, span, to_string(range));
+        return;
+    }
+    for (double i = 0; i < numbers->end - numbers->begin && step(span); ++i) {
+        each(number(numbers->begin + i));
+    }
+}
+
+} // namespace scc::lang

@@ -1,0 +1,304 @@
+#pragma once
+
+#include "runtime/math/lane.h"
+
+namespace scc::runtime {
+
+namespace detail {
+
+/// The compiler's vectors (g++ and clang have the same), since loops over arrays are not kept in registers.
+template <class T, int N>
+struct VectorOf {
+    typedef T type __attribute__((vector_size(sizeof(T) * N)));
+};
+
+} // namespace detail
+
+/// The masks of Pack<T, N>: all bits of a lane are set or none.
+template <class T, int N>
+struct PackMask {
+    using RealVector = typename detail::VectorOf<T, N>::type;
+    using Vector = decltype(RealVector{} < RealVector{});
+    Vector v{};
+
+    PackMask() = default;
+    explicit PackMask(Vector x) : v(x) {}
+    explicit PackMask(bool x) : v(Vector{} == Vector{}) { v = x ? v : Vector{}; }
+
+    friend PackMask operator&(PackMask a, PackMask b) { return PackMask(a.v & b.v); }
+    friend PackMask operator|(PackMask a, PackMask b) { return PackMask(a.v | b.v); }
+    friend PackMask operator!(PackMask a) { return PackMask(~a.v); }
+    friend PackMask operator==(PackMask a, PackMask b) { return PackMask(~(a.v ^ b.v)); }
+
+    friend bool any(PackMask mask) { return bits(mask) != 0; }
+    friend bool none(PackMask mask) { return bits(mask) == 0; }
+    friend bool all(PackMask mask) { return bits(mask) == (1U << N) - 1; }
+
+    /// Bit i is lane i.
+    friend unsigned bits(PackMask mask) {
+#if defined(__AVX512DQ__)
+        if constexpr (sizeof(T) * N == 64 && sizeof(T) == 8) {
+            return __builtin_ia32_cvtq2mask512(
+                reinterpret_cast<typename detail::VectorOf<long long, N>::type>(mask.v));
+        } else if constexpr (sizeof(T) * N == 64) {
+            return __builtin_ia32_cvtd2mask512(
+                reinterpret_cast<typename detail::VectorOf<int, N>::type>(mask.v));
+        } else
+#endif
+#if defined(__AVX2__)
+            if constexpr (sizeof(T) * N == 32 && sizeof(T) == 8) {
+            return static_cast<unsigned>(__builtin_ia32_movmskpd256(reinterpret_cast<RealVector>(mask.v)));
+        } else if constexpr (sizeof(T) * N == 32) {
+            return static_cast<unsigned>(__builtin_ia32_movmskps256(reinterpret_cast<RealVector>(mask.v)));
+        } else
+#endif
+#if defined(__SSE2__)
+            if constexpr (sizeof(T) * N == 16 && sizeof(T) == 8) {
+            return static_cast<unsigned>(__builtin_ia32_movmskpd(reinterpret_cast<RealVector>(mask.v)));
+        } else if constexpr (sizeof(T) * N == 16) {
+            return static_cast<unsigned>(__builtin_ia32_movmskps(reinterpret_cast<RealVector>(mask.v)));
+        } else
+#endif
+        {
+            unsigned result = 0;
+            for (int i = 0; i < N; ++i) {
+                result |= (mask.v[i] != 0 ? 1U : 0U) << i;
+            }
+            return result;
+        }
+    }
+};
+
+/// Whole numbers beside a Pack<T, N>, of T's size so that they share its masks; 32 bits of each are used.
+template <class T, int N>
+struct PackIndex {
+    using Number = std::conditional_t<sizeof(T) == 8, unsigned long long, unsigned>;
+    using Vector = typename detail::VectorOf<Number, N>::type;
+    Vector v{};
+
+    PackIndex() = default;
+    explicit PackIndex(Vector x) : v(x) {}
+    explicit PackIndex(std::uint32_t x) : v(Vector{} + x) {}
+
+    friend PackMask<T, N> operator==(PackIndex a, PackIndex b) { return mask(a.v == b.v); }
+    friend PackMask<T, N> operator!=(PackIndex a, PackIndex b) { return mask(a.v != b.v); }
+    friend PackMask<T, N> operator<(PackIndex a, PackIndex b) { return mask(a.v < b.v); }
+    friend PackIndex choose(PackMask<T, N> where, PackIndex a, PackIndex b) {
+        return PackIndex(where.v ? a.v : b.v);
+    }
+
+private:
+    template <class V>
+    static PackMask<T, N> mask(V compared) {
+        return PackMask<T, N>(reinterpret_cast<typename PackMask<T, N>::Vector>(compared));
+    }
+};
+
+/// N lanes of float or double in one register of 16, 32 or 64 bytes, whichever the target has.
+template <class T, int N>
+struct Pack {
+    using Vector = typename detail::VectorOf<T, N>::type;
+    Vector v{};
+
+    Pack() = default;
+    explicit Pack(Vector x) : v(x) {}
+    Pack(T x) : v(x - Vector{}) {} // not {} + x, which loses the sign of -0
+
+    friend Pack operator+(Pack a, Pack b) { return Pack(a.v + b.v); }
+    friend Pack operator-(Pack a, Pack b) { return Pack(a.v - b.v); }
+    friend Pack operator*(Pack a, Pack b) { return Pack(a.v * b.v); }
+    friend Pack operator/(Pack a, Pack b) { return Pack(a.v / b.v); }
+    friend Pack operator-(Pack a) { return Pack(-a.v); }
+
+    using Mask = PackMask<T, N>;
+    friend Mask operator<(Pack a, Pack b) { return Mask(a.v < b.v); }
+    friend Mask operator<=(Pack a, Pack b) { return Mask(a.v <= b.v); }
+    friend Mask operator>(Pack a, Pack b) { return Mask(a.v > b.v); }
+    friend Mask operator>=(Pack a, Pack b) { return Mask(a.v >= b.v); }
+    friend Mask operator==(Pack a, Pack b) { return Mask(a.v == b.v); }
+    friend Mask operator!=(Pack a, Pack b) { return Mask(a.v != b.v); }
+    friend Pack choose(Mask where, Pack a, Pack b) { return Pack(where.v ? a.v : b.v); }
+};
+
+template <class T, int N>
+struct LaneTraits<Pack<T, N>> {
+    using Real = T;
+    using Mask = PackMask<T, N>;
+    using Index = PackIndex<T, N>;
+    static constexpr int count = N;
+};
+
+template <class T, int N>
+Pack<T, N> truth(PackMask<T, N> mask) {
+    return choose(mask, Pack<T, N>(1), Pack<T, N>(0));
+}
+
+template <class T, int N>
+T lane(const Pack<T, N>& x, int i) {
+    return x.v[i];
+}
+template <class T, int N>
+std::uint32_t lane(const PackIndex<T, N>& x, int i) {
+    return static_cast<std::uint32_t>(x.v[i]);
+}
+template <class T, int N>
+void set_lane(Pack<T, N>& x, int i, T value) {
+    x.v[i] = value;
+}
+template <class T, int N>
+int first_lane(PackMask<T, N> mask) {
+    return __builtin_ctz(bits(mask));
+}
+template <class T, int N>
+std::uint64_t count_lanes(PackMask<T, N> mask) {
+    return static_cast<std::uint64_t>(__builtin_popcount(bits(mask)));
+}
+
+namespace detail {
+
+template <class T, int N, class F>
+Pack<T, N> each_lane(F&& f) {
+    Pack<T, N> result;
+    for (int i = 0; i < N; ++i) {
+        result.v[i] = f(i);
+    }
+    return result;
+}
+
+} // namespace detail
+
+template <class T, int N>
+Pack<T, N> absolute(Pack<T, N> x) {
+    using Bits = typename PackIndex<T, N>::Vector;
+    constexpr auto magnitude =
+        static_cast<typename PackIndex<T, N>::Number>(~0ULL >> (sizeof(T) == 8 ? 1 : 33));
+    return Pack<T, N>(reinterpret_cast<typename Pack<T, N>::Vector>(reinterpret_cast<Bits>(x.v) & magnitude));
+}
+
+template <class T, int N>
+Pack<T, N> square_root(Pack<T, N> x) {
+#if defined(__AVX512F__) && !defined(__clang__)
+    if constexpr (sizeof(T) * N == 64 && sizeof(T) == 8) {
+        return Pack<T, N>(__builtin_ia32_sqrtpd512_mask(x.v, x.v, -1, 4));
+    } else if constexpr (sizeof(T) * N == 64) {
+        return Pack<T, N>(__builtin_ia32_sqrtps512_mask(x.v, x.v, -1, 4));
+    } else
+#elif defined(__AVX512F__)
+    if constexpr (sizeof(T) * N == 64 && sizeof(T) == 8) {
+        return Pack<T, N>(__builtin_ia32_sqrtpd512(x.v, 4));
+    } else if constexpr (sizeof(T) * N == 64) {
+        return Pack<T, N>(__builtin_ia32_sqrtps512(x.v, 4));
+    } else
+#endif
+#if defined(__AVX2__)
+        if constexpr (sizeof(T) * N == 32 && sizeof(T) == 8) {
+        return Pack<T, N>(__builtin_ia32_sqrtpd256(x.v));
+    } else if constexpr (sizeof(T) * N == 32) {
+        return Pack<T, N>(__builtin_ia32_sqrtps256(x.v));
+    } else
+#endif
+#if defined(__SSE2__)
+        if constexpr (sizeof(T) * N == 16 && sizeof(T) == 8) {
+        return Pack<T, N>(__builtin_ia32_sqrtpd(x.v));
+    } else if constexpr (sizeof(T) * N == 16) {
+        return Pack<T, N>(__builtin_ia32_sqrtps(x.v));
+    } else
+#endif
+    {
+        return detail::each_lane<T, N>([&](int i) { return square_root(x.v[i]); });
+    }
+}
+
+namespace detail {
+
+/// Adding 2^52 (2^23) and taking it off again rounds to a whole number; larger ones are whole already.
+template <class T, int N>
+Pack<T, N> to_nearest_whole(Pack<T, N> x) {
+    const Pack<T, N> shift(sizeof(T) == 8 ? T(4503599627370496.0) : T(8388608.0));
+    const Pack<T, N> size = absolute(x);
+    const Pack<T, N> rounded = (size + shift) - shift;
+    return choose(size < shift, choose(x < 0, -rounded, rounded), x);
+}
+
+} // namespace detail
+
+template <class T, int N>
+Pack<T, N> round_down(Pack<T, N> x) {
+    const Pack<T, N> whole = detail::to_nearest_whole(x);
+    return choose(whole > x, whole - 1, choose(whole == x, x, whole)); // x itself: -0 stays
+}
+template <class T, int N>
+Pack<T, N> round_up(Pack<T, N> x) {
+    return -round_down(-x);
+}
+
+template <class T, int N>
+Pack<T, N> difference_of_products(Pack<T, N> a, Pack<T, N> b, Pack<T, N> c, Pack<T, N> d) {
+    return detail::each_lane<T, N>(
+        [&](int i) { return difference_of_products(a.v[i], b.v[i], c.v[i], d.v[i]); });
+}
+
+template <class T, int N>
+Pack<T, N> power(Pack<T, N> x, std::type_identity_t<Pack<T, N>> y) {
+    return detail::each_lane<T, N>([&](int i) { return power(T(x.v[i]), T(y.v[i])); });
+}
+template <class T, int N>
+Pack<T, N> arc_tangent(Pack<T, N> y, std::type_identity_t<Pack<T, N>> x) {
+    return detail::each_lane<T, N>([&](int i) { return arc_tangent(T(y.v[i]), T(x.v[i])); });
+}
+template <class T, int N>
+Pack<T, N> sine(Pack<T, N> x) {
+    return detail::each_lane<T, N>([&](int i) { return sine(T(x.v[i])); });
+}
+template <class T, int N>
+Pack<T, N> cosine(Pack<T, N> x) {
+    return detail::each_lane<T, N>([&](int i) { return cosine(T(x.v[i])); });
+}
+template <class T, int N>
+Pack<T, N> tangent(Pack<T, N> x) {
+    return detail::each_lane<T, N>([&](int i) { return tangent(T(x.v[i])); });
+}
+template <class T, int N>
+Pack<T, N> arc_sine(Pack<T, N> x) {
+    return detail::each_lane<T, N>([&](int i) { return arc_sine(T(x.v[i])); });
+}
+template <class T, int N>
+Pack<T, N> arc_cosine(Pack<T, N> x) {
+    return detail::each_lane<T, N>([&](int i) { return arc_cosine(T(x.v[i])); });
+}
+template <class T, int N>
+Pack<T, N> exponential(Pack<T, N> x) {
+    return detail::each_lane<T, N>([&](int i) { return exponential(T(x.v[i])); });
+}
+template <class T, int N>
+Pack<T, N> logarithm(Pack<T, N> x) {
+    return detail::each_lane<T, N>([&](int i) { return logarithm(T(x.v[i])); });
+}
+
+/// Bytes of the widest registers that the program is compiled for.
+#if defined(__AVX512DQ__)
+inline constexpr int register_bytes = 64;
+#elif defined(__AVX2__)
+inline constexpr int register_bytes = 32;
+#else
+inline constexpr int register_bytes = 16;
+#endif
+
+namespace detail {
+
+template <class R>
+struct WidestLane {
+    using type = R;
+};
+template <class R>
+requires(sizeof(R) <= sizeof(double)) struct WidestLane<R> {
+    using type = Pack<R, register_bytes / static_cast<int>(sizeof(R))>;
+};
+
+} // namespace detail
+
+/// The lane type to calculate in: a register full of R, or R where there are no such registers (long double).
+template <class R>
+using WidestLane = typename detail::WidestLane<R>::type;
+
+} // namespace scc::runtime
