@@ -235,7 +235,7 @@ void ObjectLowering::add(const Thing& thing, const std::string& path, const Affi
     }
     if (const std::optional<ir::Shape> shape = make_shape(thing)) {
         scene_.objects.push_back(
-            {*shape, world_from_object, materials_.sides(material, path), path, thing.span});
+            {*shape, world_from_object, materials_.sides(material, path), unique_path(path), thing.span});
     }
 }
 

@@ -123,17 +123,13 @@ Typed Checker::function_call(const ast::Call& node, Binding& binding, Span span,
     const std::vector<ast::Formal>& formals = binding.function->formals;
     std::vector<Typed> values(formals.size());
     std::vector<const ast::Expr*> given(formals.size(), nullptr);
-    bool named = false;
-    bool counted_wrong = false;
+    bool understood = true;
     for (std::size_t i = 0; i < node.arguments.size(); ++i) {
         const ast::Argument& argument = node.arguments[i];
-        named = named || argument.name;
         Typed value = expression(argument.value, place.unnamed());
-        const std::size_t at = argument.name ? parameter_index(formals, *argument.name, binding)
-                               : named       ? no_parameter
-                                             : i;
+        const std::size_t at = parameter_of(node, i, binding);
+        understood = understood && at != no_parameter;
         if (at >= formals.size()) {
-            counted_wrong = counted_wrong || !argument.name;
             continue;
         }
         if (given[at]) {
@@ -145,16 +141,30 @@ Typed Checker::function_call(const ast::Call& node, Binding& binding, Span span,
         expect(in_code(formals[at].name.text), binding.type.args[at], value.type, *argument.value);
         values[at] = std::move(value);
     }
-    if (counted_wrong) {
-        diagnostics_.report(Diag::argument_count, span, in_code(binding.name),
-                            counted(formals.size(), "argument"), std::to_string(node.arguments.size()));
+    if (understood && node.arguments.size() > formals.size()) {
+        argument_count(formals.size(), in_code(binding.name), node, span);
+        understood = false;
     }
-    for (std::size_t i = 0; i < formals.size() && !counted_wrong; ++i) {
+    for (std::size_t i = 0; i < formals.size() && understood; ++i) {
         if (!given[i] && !formals[i].default_value) {
             diagnostics_.report(Diag::missing_argument, span, binding.name, formals[i].name.text);
         }
     }
     return {binding.type.args.back(), make_code(code::Call{std::move(callee.code), codes(values)}, span)};
+}
+
+/// The index of the parameter that an argument is for; past the last one if there are too many.
+std::size_t Checker::parameter_of(const ast::Call& node, std::size_t argument, const Binding& function) {
+    if (const auto& name = node.arguments[argument].name) {
+        return parameter_index(function.function->formals, *name, function);
+    }
+    const auto named = [](const ast::Argument& earlier) { return earlier.name.has_value(); };
+    const auto begin = node.arguments.begin();
+    if (std::any_of(begin, begin + static_cast<std::ptrdiff_t>(argument), named)) {
+        diagnostics_.report(Diag::unnamed_argument, node.arguments[argument].value->span);
+        return no_parameter;
+    }
+    return argument;
 }
 
 std::size_t Checker::parameter_index(const std::vector<ast::Formal>& formals, const ast::Name& name,
@@ -281,10 +291,16 @@ Typed Checker::list_call(const ast::Call& node, std::string_view name, Span span
         const TypeKind kind = element.kind == TypeKind::error ? TypeKind::number : element.kind;
         return {kind, make_code(code::ListCall{code::ListOp::sum, codes(values), compose(kind, {})}, span)};
     }
-    const Type wanted = Type::function({element}, name == "filter" ? Type(TypeKind::boolean) : Type{});
     const Type function = values[1].type;
-    if (!expect(in_code(name), wanted, function, *node.arguments[1].value) ||
-        function.kind != TypeKind::function) {
+    const Type wanted = Type::function({element}, name == "filter" ? Type(TypeKind::boolean) : Type{});
+    if (!fits(wanted, function)) {
+        diagnostics_.report(Diag::type_mismatch, node.arguments[1].value->span, in_code(name),
+                            "a function of " + described(element) +
+                                (name == "filter" ? " that gives a bool" : ""),
+                            described(function));
+        return {};
+    }
+    if (function.kind != TypeKind::function) {
         return {};
     }
     const bool is_map = name == "map";

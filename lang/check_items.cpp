@@ -31,6 +31,9 @@ CheckedFile Checker::run(const ast::File& file, const std::vector<Definition>& g
     }
     definitions(given, scope, checked.params);
     names_.report_cycles();
+    if (!diagnostics_.has_errors()) { // a misspelt use would leave its name unused
+        names_.warn_unused();
+    }
     close(scope, checked.body.cells);
     checked.functions = std::move(functions_);
     checked.given = std::move(given_);
@@ -82,9 +85,8 @@ void Checker::check_definitions(const std::vector<Binding*>& bindings) {
     }
 }
 
-/// Warns of unused names and hands over what the scope's cells are computed from.
+/// Hands over what the scope's cells are computed from.
 void Checker::close(Scope& scope, std::vector<CodePtr>& cells) {
-    names_.warn_unused(scope);
     for (Binding* binding : scope.cells) {
         cells.push_back(std::move(binding->code));
     }

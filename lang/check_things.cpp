@@ -64,10 +64,6 @@ void Checker::unknown_constructor(const ast::Construct& node, const Place& place
 /// What stands within an unknown or unsupported thing is checked as an expression only.
 void Checker::item(const ast::Field& item, Span, const Into& into) {
     const Around& around = into.around;
-    if (around.is_file) {
-        diagnostics_.report(Diag::misplaced_field, item.name.span, item.name.text)
-            .suggest({item.name.span.file, item.name.span.begin, item.name.span.begin}, "let ");
-    }
     const Field* row = around.thing ? around.thing->find(item.name.text) : nullptr;
     if (row && row->supported) {
         field_value(item, *row, into);
@@ -114,7 +110,8 @@ void Checker::field_value(const ast::Field& item, const Field& row, const Into& 
     }
     check_choice(*item.value, row);
     const bool is_unit = into.around.thing->name == "world" && row.name == "unit";
-    if (is_unit && std::find(unit_fields_.begin(), unit_fields_.end(), &item) == unit_fields_.end()) {
+    if (is_unit && value.type.kind == TypeKind::string &&
+        std::find(unit_fields_.begin(), unit_fields_.end(), &item) == unit_fields_.end()) {
         diagnostics_.report(Diag::unit_not_literal, item.value->span);
     }
     into.out.push_back({FieldCode{&row, std::move(value.code), item.name.span}});

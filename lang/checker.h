@@ -152,6 +152,7 @@ private:
     Typed list_call(const ast::Call& node, std::string_view name, Span span, const Place& place);
     Typed constructor_call(std::string_view name, Span name_span, Span span);
     static constexpr std::size_t no_parameter = static_cast<std::size_t>(-1);
+    std::size_t parameter_of(const ast::Call& node, std::size_t argument, const Binding& function);
     std::size_t parameter_index(const std::vector<ast::Formal>& formals, const ast::Name& name,
                                 const Binding& function);
     std::vector<Typed> arguments(const ast::Call& node, std::string_view subject, const Place& place);

@@ -121,7 +121,7 @@ private:
 class Renderer {
 public:
     Renderer(const SourceFile& file, const Diagnostic& diagnostic, bool color)
-        : file_(file), diagnostic_(diagnostic), position_(file.position(diagnostic.span.begin)),
+        : diagnostic_(diagnostic), position_(file.position(diagnostic.span.begin)),
           line_(file.line(position_.line)), excerpt_(line_, position_.column - 1),
           style_(style_of(diagnostic.severity, color)) {}
 
@@ -164,7 +164,6 @@ private:
         return text.empty() ? text : std::string(excerpt_.column(span.begin - begin), ' ') + text;
     }
 
-    const SourceFile& file_;
     const Diagnostic& diagnostic_;
     Position position_;
     std::string_view line_;

@@ -12,7 +12,8 @@ namespace scc::lang {
 
 /// Brackets, operators and blocks may nest this deep; deeper is reported and skipped.
 inline constexpr int max_nesting = 128;
-/// No tree is higher than this: `a + b + c + ...` makes one as high as the chain is long.
+/// A chain of operators makes a tree as high as it is long, so trees are at most this high; brackets around a chain add
+/// to it at most max_nesting.
 inline constexpr int max_chain = 512;
 
 /// Recursive descent over the grammar in grammar.md. After a mistake it goes on at the next item, so one run

@@ -116,14 +116,21 @@ ast::ExprPtr Parser::power() {
         return base;
     }
     const Span op_span = token().span;
+    ast::ExprPtr raised_to = exponent();
+    if (!grow(op_span)) {
+        return error(op_span);
+    }
+    const Span span = join(base->span, raised_to->span);
+    return make(ast::Binary{BinaryOp::pow, std::move(base), std::move(raised_to), op_span}, span);
+}
+
+ast::ExprPtr Parser::exponent() {
     const Nest nest(*this);
     if (!nest) {
-        return base;
+        return error();
     }
     advance();
-    ast::ExprPtr exponent = unary();
-    const Span span = join(base->span, exponent->span);
-    return make(ast::Binary{BinaryOp::pow, std::move(base), std::move(exponent), op_span}, span);
+    return unary();
 }
 
 ast::ExprPtr Parser::postfix() {

@@ -50,6 +50,7 @@ private:
     ast::ExprPtr binary(int level);
     ast::ExprPtr unary();
     ast::ExprPtr power();
+    ast::ExprPtr exponent();
     ast::ExprPtr postfix();
     ast::ExprPtr member(ast::ExprPtr object);
     ast::ExprPtr call(ast::ExprPtr callee);

@@ -14,7 +14,7 @@ RunReport::Entry& RunReport::find(Diag kind, Span span) {
 }
 
 void RunReport::remember_loop(Entry& entry) const {
-    if (!loops_.empty()) {
+    if (!loops_.empty() && !std::holds_alternative<ErrorValue>(loops_.back().value->v)) {
         const Loop& loop = loops_.back();
         entry.loop = loop.span;
         entry.loop_text = fmt::format("{} = {}", loop.variable, to_string(*loop.value));

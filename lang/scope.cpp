@@ -73,15 +73,15 @@ void Names::note_use(Binding& target, Span span, Binding* user) {
     }
 }
 
-void Names::warn_unused(const Scope& scope) {
-    for (const Binding* binding : scope.cells) {
-        if (binding->used || binding->name.starts_with('_')) {
+void Names::warn_unused() {
+    for (const Binding& binding : bindings_) {
+        if (binding.used || binding.name.starts_with('_')) {
             continue;
         }
-        if (binding->kind == Binding::Kind::let) {
-            diagnostics_.report(Diag::unused_let, binding->span, binding->name);
-        } else if (binding->kind == Binding::Kind::param) {
-            diagnostics_.report(Diag::unused_param, binding->span, binding->name);
+        if (binding.kind == Binding::Kind::let) {
+            diagnostics_.report(Diag::unused_let, binding.span, binding.name);
+        } else if (binding.kind == Binding::Kind::param) {
+            diagnostics_.report(Diag::unused_param, binding.span, binding.name);
         }
     }
 }

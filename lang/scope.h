@@ -71,7 +71,7 @@ public:
     /// Remembers that the definition `user` (null: the file's items) mentions `target`.
     static void note_use(Binding& target, Span span, Binding* user);
 
-    void warn_unused(const Scope& scope);
+    void warn_unused();
     /// Reports every let or param whose value needs itself, by way of functions too, and functions whose
     /// result type cannot be found because they call themselves.
     void report_cycles();

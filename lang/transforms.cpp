@@ -70,6 +70,11 @@ std::optional<Rows> inverse_linear(const Rows& m) {
     return result;
 }
 
+/// Quarter turns in radians are rounded, which leaves 6e-17 where their cosine is 0; this keeps them exact.
+double snapped(double value) {
+    return std::abs(value) < 5e-16 ? 0 : value;
+}
+
 } // namespace
 
 TransformValue translation(const Point& by) {
@@ -81,8 +86,8 @@ TransformValue scaling(const Point& by) {
 }
 
 TransformValue rotation(const Point& axis, double radians) {
-    const double c = std::cos(radians);
-    const double s = std::sin(radians);
+    const double c = snapped(std::cos(radians));
+    const double s = snapped(std::sin(radians));
     const auto [x, y, z] = axis;
     const double t = 1 - c;
     return {{{{t * x * x + c, t * x * y - s * z, t * x * z + s * y, 0},

@@ -14,9 +14,10 @@ namespace {
 /// end.
 constexpr std::size_t longest_text = 1'000'000;
 
+/// Without the signs of zero and of what is not a number, which mean nothing to an author.
 std::string number_text(double value) {
-    std::string text = fmt::format("{}", value);
-    return text == "-0" ? "0" : text;
+    const bool plain = value == 0 || std::isnan(value);
+    return fmt::format("{}", plain ? std::abs(value) : value);
 }
 
 std::string scalar_text(const Scalar& scalar) {

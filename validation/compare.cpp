@@ -62,10 +62,10 @@ public:
             result.mean = sum_ / static_cast<double>(finite_);
             result.rmse = std::sqrt(squares_ / static_cast<double>(finite_));
         }
-        result.p50 = percentile(50);
-        result.p90 = percentile(90);
-        result.p99 = percentile(99);
-        result.p999 = percentile(99.9);
+        result.p50 = per_mille(500);
+        result.p90 = per_mille(900);
+        result.p99 = per_mille(990);
+        result.p999 = per_mille(999);
         for (const double threshold : thresholds) {
             const auto above = std::upper_bound(errors_.begin(), errors_.end(), threshold);
             result.counts.push_back({threshold, static_cast<std::size_t>(errors_.end() - above)});
@@ -74,9 +74,10 @@ public:
     }
 
 private:
-    double percentile(double percent) const {
-        const double rank = std::ceil(percent / 100 * static_cast<double>(errors_.size()));
-        return errors_[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+    /// Nearest rank, in whole numbers: 999 per mille of 1000 errors is the 999th.
+    double per_mille(std::size_t share) const {
+        const std::size_t rank = (share * errors_.size() + 999) / 1000;
+        return errors_[std::max<std::size_t>(rank, 1) - 1];
     }
 
     std::vector<double> errors_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
+#include <functional>
 #include <numbers>
 #include <vector>
 
@@ -74,18 +76,23 @@ Plane product(const Plane& a, const Plane& b) {
 constexpr int window_radius = 5;
 constexpr double window_sigma = 1.5;
 
-double window_weight(int offset) {
-    return std::exp(-offset * offset / (2 * window_sigma * window_sigma));
+/// Unnormalised, from the centre outwards.
+std::array<double, window_radius + 1> window_weights() {
+    std::array<double, window_radius + 1> weights;
+    for (int i = 0; i <= window_radius; ++i)
+        weights[static_cast<std::size_t>(i)] = std::exp(-i * i / (2 * window_sigma * window_sigma));
+    return weights;
 }
 
 /// Weighted mean along one axis; the window's part outside the picture is left out.
 template <class At>
 double windowed(int position, int size, const At& at) {
+    static const std::array<double, window_radius + 1> weight_at = window_weights();
     double sum = 0;
     double weights = 0;
     for (int i = std::max(position - window_radius, 0); i <= std::min(position + window_radius, size - 1);
          ++i) {
-        const double weight = window_weight(i - position);
+        const double weight = weight_at[static_cast<std::size_t>(std::abs(i - position))];
         sum += weight * at(i);
         weights += weight;
     }

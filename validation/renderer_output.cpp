@@ -48,9 +48,12 @@ std::string povray_message(const std::vector<std::string>& lines, std::size_t li
     std::string message = lines[line];
     for (; line + 1 < lines.size(); ++line) {
         const bool broken_in_a_word = lines[line].size() >= povray_columns;
-        if (!lines[line + 1].starts_with(' ') && !broken_in_a_word)
+        const std::string& next = lines[line + 1];
+        const bool is_wrapped =
+            next.size() > 1 && next[0] == ' ' && next[1] != ' '; // two begin a table's row
+        if (!is_wrapped && !broken_in_a_word)
             break;
-        message += lines[line + 1];
+        message += next;
     }
     return message;
 }

@@ -62,13 +62,16 @@ void judge_end(RenderResult& result, const ProcessResult& process, const Command
         result.status = RenderStatus::done;
         return;
     }
-    result.reason = said.empty() ? end : fmt::format("{} ({})", said, end);
-    if (process.end == ProcessEnd::timed_out)
+    result.reason = end;
+    if (process.end == ProcessEnd::timed_out) {
         result.status = RenderStatus::timed_out;
-    else if (process.end == ProcessEnd::interrupted)
+    } else if (process.end == ProcessEnd::interrupted) {
         result.status = RenderStatus::interrupted;
-    else
+    } else {
         result.status = RenderStatus::failed;
+        if (!said.empty())
+            result.reason = fmt::format("{} ({})", said, end);
+    }
 }
 
 /// Reads the picture and averages it to the job's size; without one the result is a failure.

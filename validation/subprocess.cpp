@@ -133,6 +133,8 @@ public:
             if (equals != std::string::npos)
                 variables.emplace(text.substr(0, equals), text.substr(equals + 1));
         }
+        if (!directory_.empty()) // Blender, for one, takes its word for it
+            variables["PWD"] = fs::absolute(directory_).string();
         for (const auto& [name, value] : command.environment)
             variables[name] = value;
         for (const auto& [name, value] : variables)

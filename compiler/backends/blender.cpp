@@ -31,8 +31,8 @@ import os
 import sys
 
 import bpy
+import mathutils
 import numpy as np
-from mathutils import Matrix, Vector
 
 )py";
 

@@ -39,8 +39,11 @@ private:
         }
         out_.line("AMBIENT = {}", python(scene_.ambient));
         out_.line("BACKGROUND = {}", python(scene_.background));
-        out_.line("CENTER = {}  # of what is bounded, the lights and the camera", python(needs_.center));
-        out_.line("EXTENT = {}  # their distance from there", python(needs_.extent));
+        if (has("plane")) {
+            out_.line("CENTER = {}", python(needs_.center));
+        }
+        out_.line("EXTENT = {}  # half the size of what is bounded, the lights and the camera together",
+                  python(needs_.extent));
     }
 
     void write_camera() {

@@ -159,7 +159,7 @@ private:
 
     void emit_object(const ir::Object& object) {
         const Placement placement = place(object, scene_, frame_);
-        const PovShape shape = pov_shape(object.shape, placement.shape_scale, mesh_names_);
+        const PovShape shape = pov_shape(object.shape, placement, mesh_names_);
         declare_mesh_of(object);
         objects_.line("// {}", comment_text(object.path + line_of(object.span)));
         objects_.line("{} {{", shape.keyword);
@@ -167,35 +167,57 @@ private:
         for (const std::string& line : shape.lines) {
             objects_.raw_line(line);
         }
-        const auto [front, back] = object.sides;
-        std::vector<std::string> in_object, in_world;
-        const auto texture = [&](std::string_view keyword, std::uint32_t material) {
-            const PovMaterials::Use use = materials_.use(material, object);
-            const std::string own =
-                placement.shape_scale == 1 ? "" : " scale " + number(placement.shape_scale);
-            (use.in_world ? in_world : in_object)
-                .push_back(fmt::format("{} {{ {}{} }}", keyword, use.texture,
-                                       use.in_world ? frame_.texture_transform() : own));
-        };
-        texture("texture", shape.reversed ? back : front);
-        if (front != back) {
-            texture("interior_texture", shape.reversed ? front : back);
+        // What stands before the transform moves with the shape.
+        const std::vector<TextureLine> textures = texture_lines(object, placement, shape);
+        write_textures(textures, false);
+        if (const std::string moved = pov_transform(placement.transform); !shape.placed && !moved.empty()) {
+            objects_.raw_line(moved);
         }
-        for (const std::string& line : in_object) {
-            objects_.raw_line(line);
-        }
-        if (const std::string transform = pov_transform(placement.transform); !transform.empty()) {
-            objects_.raw_line(transform);
-        }
-        for (const std::string& line : in_world) {
-            objects_.raw_line(line);
-        }
+        write_textures(textures, true);
         if (!scene_.settings.shadows) {
             objects_.line("no_shadow");
         }
         objects_.dedent();
         objects_.line("}}");
         note_object(object, shape);
+    }
+
+    struct TextureLine {
+        std::string text;
+        bool in_world;
+    };
+
+    std::vector<TextureLine> texture_lines(const ir::Object& object, const Placement& placement,
+                                           const PovShape& shape) {
+        std::string in_object;
+        if (placement.shape_scale != 1) {
+            in_object += " scale " + number(placement.shape_scale);
+        }
+        if (const std::string moved = pov_transform(placement.transform); shape.placed && !moved.empty()) {
+            in_object += " " + moved;
+        }
+        std::vector<TextureLine> lines;
+        const auto add = [&](std::string_view keyword, std::uint32_t material) {
+            const PovMaterials::Use use = materials_.use(material, object);
+            const std::string moved = !use.varies    ? ""
+                                      : use.in_world ? frame_.texture_transform()
+                                                     : in_object;
+            lines.push_back({fmt::format("{} {{ {}{} }}", keyword, use.texture, moved), use.in_world});
+        };
+        const auto [front, back] = object.sides;
+        add("texture", shape.reversed ? back : front);
+        if (front != back) {
+            add("interior_texture", shape.reversed ? front : back);
+        }
+        return lines;
+    }
+
+    void write_textures(const std::vector<TextureLine>& lines, bool in_world) {
+        for (const TextureLine& line : lines) {
+            if (line.in_world == in_world) {
+                objects_.raw_line(line.text);
+            }
+        }
     }
 
     void declare_mesh_of(const ir::Object& object) {

@@ -71,7 +71,8 @@ double rounded(double x, double step) {
     return std::round(x / unit) * unit;
 }
 
-constexpr double comfortable_size = 32;
+/// In the middle of what POV-Ray draws without error, with room for horizons: it sees nothing beyond 1e7.
+constexpr double comfortable_size = 8;
 
 } // namespace
 

@@ -16,44 +16,46 @@ namespace {
 using ir::Node;
 using ir::Op;
 
-/// offset + slope t
+/// A value that changes linearly from t = 0 to t = 1.
 struct Line {
-    double offset = 0, slope = 0;
+    double start = 0, end = 0;
+
+    double at(double t) const { return t == 0 ? start : t == 1 ? end : start + t * (end - start); }
 };
 using MaybeLine = std::optional<Line>;
 
 MaybeLine line_of(const Node& node, bool t_is_truth, std::uint32_t t, const std::vector<MaybeLine>& lines) {
     const auto line = [&](std::size_t k) { return lines[node.operands[k]]; };
-    const auto constant = [&](std::size_t k) { return line(k) && line(k)->slope == 0; };
+    const auto constant = [&](std::size_t k) { return line(k) && line(k)->start == line(k)->end; };
     switch (node.op) {
     case Op::neg:
-        return line(0) ? MaybeLine({-line(0)->offset, -line(0)->slope}) : std::nullopt;
+        return line(0) ? MaybeLine({-line(0)->start, -line(0)->end}) : std::nullopt;
     case Op::add:
     case Op::sub: {
         if (!line(0) || !line(1)) {
             return std::nullopt;
         }
         const double sign = node.op == Op::add ? 1 : -1;
-        return Line{line(0)->offset + sign * line(1)->offset, line(0)->slope + sign * line(1)->slope};
+        return Line{line(0)->start + sign * line(1)->start, line(0)->end + sign * line(1)->end};
     }
     case Op::mul: {
         const std::size_t factor = constant(0) ? 0 : 1;
         if (!constant(factor) || !line(1 - factor)) {
             return std::nullopt;
         }
-        const double by = line(factor)->offset;
-        return Line{line(1 - factor)->offset * by, line(1 - factor)->slope * by};
+        const double by = line(factor)->start;
+        return Line{line(1 - factor)->start * by, line(1 - factor)->end * by};
     }
     case Op::div:
         if (!line(0) || !constant(1)) {
             return std::nullopt;
         }
-        return Line{line(0)->offset / line(1)->offset, line(0)->slope / line(1)->offset};
+        return Line{line(0)->start / line(1)->start, line(0)->end / line(1)->start};
     case Op::select:
         if (node.operands[0] != t || !t_is_truth || !constant(1) || !constant(2)) {
             return std::nullopt;
         }
-        return Line{line(2)->offset, line(1)->offset - line(2)->offset};
+        return Line{line(2)->start, line(1)->start};
     default:
         return std::nullopt;
     }
@@ -67,7 +69,7 @@ std::optional<std::vector<Line>> lines_in(const ir::Function& function, std::uin
         if (i == t) {
             lines[i] = Line{0, 1};
         } else if (node.kind == Node::Kind::constant) {
-            lines[i] = Line{node.constant, 0};
+            lines[i] = Line{node.constant, node.constant};
         } else if (node.kind == Node::Kind::apply) {
             lines[i] = line_of(node, t_is_truth, t, lines);
         }
@@ -224,8 +226,8 @@ std::pair<Paint, Outcome> PovFunctions::paint(std::int32_t index, const Place& p
         const Scaled t = scaled(index, one->t, "", place, outcome);
         std::vector<double> low, high;
         for (const Line& line : one->lines) {
-            low.push_back(line.offset + line.slope * t.low);
-            high.push_back(line.offset + line.slope * t.high);
+            low.push_back(line.at(t.low));
+            high.push_back(line.at(t.high));
         }
         paint.parts.push_back({t.t, color(low), color(high)});
         paint.two_valued = one->truth;

@@ -64,8 +64,8 @@ PovMaterials::Use PovMaterials::use(std::uint32_t material, const ir::Object& ob
     const auto [entry, is_new] = shared_.try_emplace(material);
     if (is_new) {
         entry->second = declare(material, name, nullptr);
+        entry->second.in_world = in_world && !in_object;
     }
-    entry->second.in_world = in_world && !in_object;
     return entry->second;
 }
 
@@ -81,6 +81,7 @@ PovMaterials::Use PovMaterials::declare(std::uint32_t material, const std::strin
     painted.shininess = shininess(phong.shininess, material, world_from_object);
     Outcome varying_shininess;
     Use use{textures_.declare(name, painted, varying_shininess)};
+    use.varies = reads(material, ir::Input::p_x, ir::Input::world_z);
     if (varying_shininess.fidelity != Fidelity::exact) {
         note(material, "phong shininess", varying_shininess);
     }

@@ -21,7 +21,8 @@ public:
 
     struct Use {
         std::string texture;
-        bool in_world = false; ///< its x, y, z are world coordinates
+        bool varies = false;   ///< it depends on x, y, z
+        bool in_world = false; ///< which are world coordinates, not the object's
     };
     Use use(std::uint32_t material, const ir::Object& object);
 

@@ -17,11 +17,11 @@ namespace {
 constexpr double float_rounding = 6e-8;
 
 struct ToPov {
-    double scale;
+    const Placement& placement;
     const std::vector<std::string>& mesh_names;
 
-    std::string at(const Vec3<double>& p) const { return pov_vector(scale * p); }
-    std::string size(double x) const { return number(scale * x); }
+    std::string at(const Vec3<double>& p) const { return pov_vector(placement.shape_scale * p); }
+    std::string size(double x) const { return number(placement.shape_scale * x); }
 
     PovShape operator()(const runtime::Sphere<double>& s) const {
         return {"sphere", {fmt::format("{}, {}", at(s.center), size(s.radius))}};
@@ -41,42 +41,54 @@ struct ToPov {
                 {fmt::format("{}, {}, {}, {}", at(d.center), pov_vector(d.normal), size(d.radius),
                              size(d.hole))}};
     }
-    // POV-Ray's normal points to where the corners run clockwise.
-    PovShape operator()(const runtime::Triangle<double>& t) const {
+    PovShape operator()(const runtime::Triangle<double>& t) const { return t.smooth ? smooth(t) : flat(t); }
+    PovShape operator()(const runtime::Mesh<double>& m) const { return {"object", {mesh_names[m.mesh]}}; }
+
+    /// Written where it will stand: POV-Ray reorders the corners when it transforms a triangle, and may turn
+    /// its sides over.
+    PovShape flat(const runtime::Triangle<double>& t) const {
+        const auto moved = [&](const Vec3<double>& p) {
+            return pov_vector(transform_point(placement.transform, placement.shape_scale * p));
+        };
         const auto& [a, b, c] = t.points;
-        if (!t.smooth) {
-            return {"triangle", {fmt::format("{}, {}, {}", at(a), at(c), at(b))}};
-        }
-        const auto sides = normal_sides(t);
+        // POV-Ray's normal points to where the corners run clockwise. Our normal is the transformed one,
+        // which a mirror image keeps on its side of the object.
+        const bool mirrored = determinant(placement.transform) < 0;
+        PovShape shape{
+            "triangle",
+            {fmt::format("{}, {}, {}", moved(a), moved(mirrored ? b : c), moved(mirrored ? c : b))}};
+        shape.placed = true;
+        return shape;
+    }
+
+    PovShape smooth(const runtime::Triangle<double>& t) const {
+        const auto& [a, b, c] = t.points;
+        const Vec3<double> front = cross(b - a, c - a);
+        const auto side = [&](std::size_t corner) { return dot(front, t.normals[corner]) >= 0; };
         // A smooth_triangle whose normals lie on both sides of its plane is not drawn.
-        if (sides[0] == sides[1] && sides[1] == sides[2]) {
-            PovShape shape{"smooth_triangle", {}};
-            for (const std::size_t i : {0U, 2U, 1U}) {
-                shape.lines.push_back(
-                    fmt::format("{}, {}{}", at(t.points[i]), pov_vector(t.normals[i]), i == 1 ? "" : ","));
-            }
-            shape.reversed = sides[0] < 0;
-            return shape;
+        if (side(0) != side(1) || side(1) != side(2)) {
+            return smooth_mesh(t);
         }
-        PovShape shape{"mesh2",
-                       {fmt::format("vertex_vectors {{ 3, {}, {}, {} }}", at(a), at(b), at(c)),
-                        fmt::format("normal_vectors {{ 3, {}, {}, {} }}", pov_vector(t.normals[0]),
-                                    pov_vector(t.normals[1]), pov_vector(t.normals[2])),
-                        "face_indices { 1, <0, 2, 1> }"}};
+        PovShape shape{"smooth_triangle", {}};
+        for (const std::size_t i : {0U, 1U, 2U}) {
+            shape.lines.push_back(
+                fmt::format("{}, {}{}", at(t.points[i]), pov_vector(t.normals[i]), i == 2 ? "" : ","));
+        }
+        shape.reversed = !side(0);
+        return shape;
+    }
+
+    PovShape smooth_mesh(const runtime::Triangle<double>& t) const {
+        const auto& [a, b, c] = t.points;
+        const auto& [m, n, o] = t.normals;
+        PovShape shape{
+            "mesh2",
+            {fmt::format("vertex_vectors {{ 3, {}, {}, {} }}", at(a), at(b), at(c)),
+             fmt::format("normal_vectors {{ 3, {}, {}, {} }}", pov_vector(m), pov_vector(n), pov_vector(o)),
+             "face_indices { 1, <0, 2, 1> }"}};
         shape.precision = "corners of the mesh are stored as floats; bound relative to their coordinates";
         shape.bound = float_rounding;
         return shape;
-    }
-    PovShape operator()(const runtime::Mesh<double>& m) const { return {"object", {mesh_names[m.mesh]}}; }
-
-    static std::array<int, 3> normal_sides(const runtime::Triangle<double>& t) {
-        const auto& [a, b, c] = t.points;
-        const Vec3<double> front = cross(b - a, c - a);
-        std::array<int, 3> sides{};
-        for (std::size_t i = 0; i < 3; ++i) {
-            sides[i] = dot(front, t.normals[i]) >= 0 ? 1 : -1;
-        }
-        return sides;
     }
 };
 
@@ -116,8 +128,9 @@ void list_faces(Writer& out, std::string_view name, const std::vector<std::uint3
 
 } // namespace
 
-PovShape pov_shape(const ir::Shape& shape, double scale, const std::vector<std::string>& mesh_names) {
-    return std::visit(ToPov{scale, mesh_names}, shape);
+PovShape pov_shape(const ir::Shape& shape, const Placement& placement,
+                   const std::vector<std::string>& mesh_names) {
+    return std::visit(ToPov{placement, mesh_names}, shape);
 }
 
 void declare_mesh(const ir::Mesh& mesh, const std::string& name, Writer& out) {

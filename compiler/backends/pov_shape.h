@@ -13,13 +13,16 @@ namespace scc::compiler {
 struct PovShape {
     std::string keyword;
     std::vector<std::string> lines;
-    std::string precision{}; ///< why the shape is not exact, else empty
-    double bound = 0;        ///< for `precision`: relative to the shape's size
+    bool placed = false;     ///< the numbers include the placement's transform
     bool reversed = false;   ///< POV-Ray takes our front for the inside
+    std::string precision{}; ///< why the shape is not exact, else empty
+    double bound = 0;        ///< for `precision`
 };
 
-/// `mesh_names` holds the identifiers of the scene's meshes. Meshes are declared with their own scale.
-PovShape pov_shape(const ir::Shape& shape, double scale, const std::vector<std::string>& mesh_names);
+/// `mesh_names` holds the identifiers of the scene's meshes, which are declared at the scale of their
+/// placements.
+PovShape pov_shape(const ir::Shape& shape, const Placement& placement,
+                   const std::vector<std::string>& mesh_names);
 
 /// `#declare NAME = mesh2 { ... }`
 void declare_mesh(const ir::Mesh& mesh, const std::string& name, Writer& out);

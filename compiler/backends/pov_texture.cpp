@@ -39,12 +39,34 @@ std::string_view suffix(Layer layer) {
     return "";
 }
 
-std::string function_map(const Paint::Part& part, double gain, Layer layer) {
+/// `head { items }` on one line where that is short, else an item per line.
+std::string block(std::string_view head, const std::vector<std::string>& items) {
+    std::string flat = fmt::format("{} {{", head), tall = flat;
+    for (const std::string& item : items) {
+        flat += ' ' + item;
+        tall += "\n    ";
+        for (const char c : item) {
+            tall += c == '\n' ? "\n    " : std::string(1, c);
+        }
+    }
+    const bool fits = flat.size() <= 96 && flat.find('\n') == std::string::npos;
+    return fits ? flat + " }" : tall + "\n}";
+}
+
+void write(Writer& out, std::string_view lines) {
+    while (!lines.empty()) {
+        const std::size_t end = std::min(lines.find('\n'), lines.size());
+        out.raw_line(lines.substr(0, end));
+        lines.remove_prefix(std::min(end + 1, lines.size()));
+    }
+}
+
+std::vector<std::string> function_map(const Paint::Part& part, double gain, Layer layer) {
     const auto entry = [&](int at, const Color& color) {
         return fmt::format("[{} rgb {}{}]", at, pov_color(color * gain), suffix(layer));
     };
-    return fmt::format("function {{ {} }} color_map {{ {} {} }}", part.t, entry(0, part.low),
-                       entry(1, part.high));
+    return {fmt::format("function {{ {} }}", part.t),
+            fmt::format("color_map {{ {} {} }}", entry(0, part.low), entry(1, part.high))};
 }
 
 std::string pigment(const Paint& paint, double gain, Layer layer) {
@@ -52,13 +74,14 @@ std::string pigment(const Paint& paint, double gain, Layer layer) {
         return fmt::format("pigment {{ rgb {}{} }}", pov_color(paint.constant * gain), suffix(layer));
     }
     if (paint.parts.size() == 1) {
-        return fmt::format("pigment {{ {} }}", function_map(paint.parts[0], gain, layer));
+        return block("pigment", function_map(paint.parts[0], gain, layer));
     }
-    std::string text = "pigment { average pigment_map {";
+    std::vector<std::string> entries;
     for (const Paint::Part& part : paint.parts) {
-        text += fmt::format(" [1 {}]", function_map(part, 3 * gain, layer));
+        const std::vector<std::string> map = function_map(part, 3 * gain, layer);
+        entries.push_back(fmt::format("[1 {} {}]", map[0], map[1]));
     }
-    return text + " } }";
+    return block("pigment", {block("average pigment_map", entries)});
 }
 
 /// A pigment and what it is lit by. Its coefficients count relative to the pigment.
@@ -125,8 +148,8 @@ bool has_equal_channels(const Paint& paint) {
            paint.constant.g == paint.constant.b;
 }
 
-std::string highlight(double specular, double shininess) {
-    return fmt::format(" specular {} roughness {}", number(specular), number(1 / shininess));
+std::string highlight(double specular, const std::string& roughness) {
+    return fmt::format(" specular {} roughness {}", number(specular), roughness);
 }
 
 std::string body_finish(const Body& body, double gain) {
@@ -144,21 +167,20 @@ std::string body_finish(const Body& body, double gain) {
 }
 
 std::string layer_text(const std::string& pigment_text, const std::string& finish_text) {
-    return finish_text.empty() ? fmt::format("texture {{ {} }}", pigment_text)
-                               : fmt::format("texture {{ {} finish {{{} }} }}", pigment_text, finish_text);
+    return finish_text.empty() ? block("texture", {pigment_text})
+                               : block("texture", {pigment_text, fmt::format("finish {{{} }}", finish_text)});
 }
 
 /// Layers from the bottom. POV-Ray dims the light of a half transparent layer and of all below it by one
 /// half, but not highlights and reflections of the top layer; it has no coloured highlights, so these are
 /// white on a black layer at the bottom, under a layer that filters them.
-std::vector<std::string> layers_of(const PaintedPhong& phong) {
+std::vector<std::string> layers_of(const PaintedPhong& phong, const std::string& roughness) {
     const std::vector<Body> bodies = bodies_of(phong);
     const bool colored_highlight = !has_equal_channels(phong.specular);
     std::vector<std::string> layers;
     if (colored_highlight) {
         const double gain = std::exp2(static_cast<double>(bodies.size()));
-        layers.push_back(
-            layer_text(pigment(Paint{}, 1, Layer::opaque), highlight(1, phong.shininess.constant.r)));
+        layers.push_back(layer_text(pigment(Paint{}, 1, Layer::opaque), highlight(1, roughness)));
         layers.push_back(layer_text(pigment(phong.specular, gain, Layer::filter), ""));
     }
     for (std::size_t above = bodies.size(); above-- > 0;) {
@@ -166,7 +188,7 @@ std::vector<std::string> layers_of(const PaintedPhong& phong) {
         const double gain = std::exp2(static_cast<double>(above) + (bottom ? 0 : 1));
         std::string finish = body_finish(bodies[above], gain);
         if (above == 0 && !colored_highlight && !phong.specular.is_black()) {
-            finish += highlight(phong.specular.constant.r, phong.shininess.constant.r);
+            finish += highlight(phong.specular.constant.r, roughness);
         }
         if (above == 0 && !phong.reflect.is_black()) {
             finish += fmt::format(" reflection {{ rgb {} }}", pov_color(phong.reflect.constant));
@@ -217,70 +239,78 @@ std::string PovTextures::declare_varying_reflect(const std::string& name, const 
     return average;
 }
 
+/// A finish has a constant exponent; between textures with different ones POV-Ray blends.
 std::string PovTextures::declare_varying_shininess(const std::string& name, const PaintedPhong& phong,
                                                    Outcome& shininess) {
     const Paint::Part part = phong.shininess.parts[0];
     const double low = std::max(part.low.r, 1e-3), high = std::max(part.high.r, 1e-3);
-    if (low == high) {
-        PaintedPhong fixed = phong;
-        fixed.shininess = constant_paint({low, low, low});
-        return declare_layers(name, fixed);
+    if (low == high || phong.shininess.two_valued) {
+        PaintedPhong at_low = phong, at_high = phong;
+        at_low.shininess = constant_paint({low, low, low});
+        at_high.shininess = constant_paint({high, high, high});
+        const std::string first = declare_layers(name, at_low);
+        return low == high ? first : declare_blend(name, part.t, {first, declare_layers(name, at_high)});
     }
     // Linear interpolation of x -> c^exp(x) with steps h is off by at most 0.039 h^2, whatever c is.
-    const double wanted = std::abs(std::log(high / low)) / std::sqrt(1e-6 / 0.039);
-    const int steps = phong.shininess.two_valued
-                          ? 1
-                          : static_cast<int>(std::clamp(std::ceil(wanted), 1.0, most_map_entries - 1.0));
-    std::vector<std::string> stops;
-    for (int i = 0; i <= steps; ++i) {
-        PaintedPhong fixed = phong;
-        const double value = low * std::pow(high / low, static_cast<double>(i) / steps);
-        fixed.shininess = constant_paint({value, value, value});
-        stops.push_back(declare_layers(name, fixed));
-    }
-    if (phong.shininess.two_valued) {
-        return declare_blend(name, part.t, stops);
-    }
-    const double step = std::log(high / low) / steps;
+    const double whole = std::log(high / low);
+    const double wanted = std::abs(whole) / std::sqrt(1e-6 / 0.039);
+    const int steps = static_cast<int>(std::clamp(std::ceil(wanted), 1.0, most_map_entries - 1.0));
     shininess = {Fidelity::approximated,
                  fmt::format("blended between {} textures; bound relative to the highlight", steps + 1),
-                 0.039 * step * step};
-    const std::string fraction = fmt::format(
-        "ln(max({}*({}) + ({}), {})/{})/({})", part.t, number(part.high.r - part.low.r), number(part.low.r),
-        number(std::min(low, high)), number(low), number(std::log(high / low)));
-    return declare_blend(name, fmt::format("min(max({}, 0), 1)", fraction), stops);
+                 0.039 * (whole / steps) * (whole / steps)};
+    return declare_stops(name, phong, {low, high, steps});
+}
+
+std::string PovTextures::declare_stops(const std::string& name, const PaintedPhong& phong,
+                                       const Stops& stops) {
+    const Paint::Part part = phong.shininess.parts[0];
+    const std::string macro = names_.make(name + "_at"), array = names_.make(name + "_stops");
+    const std::string whole = number(std::log(stops.high / stops.low)), low = number(stops.low);
+    out_.line("#macro {}(shininess)", macro);
+    out_.indent();
+    for (const std::string& layer : layers_of(phong, "1/shininess")) {
+        write(out_, layer);
+    }
+    out_.dedent();
+    out_.line("#end");
+    out_.line("#declare {} = array[{}];", array, stops.steps + 1);
+    out_.line("#for (stop, 0, {})", stops.steps);
+    out_.line("    #declare {}[stop] = {}({}*exp({}*stop/{}))", array, macro, low, whole, stops.steps);
+    out_.line("#end");
+    const std::string value =
+        fmt::format("{}*({}) + ({})", part.t, number(part.high.r - part.low.r), number(part.low.r));
+    const std::string identifier = names_.make(name);
+    out_.line("#declare {} = texture {{", identifier);
+    out_.line("    function {{ min(max(ln(max({}, {})/{})/({}), 0), 1) }}", value,
+              number(std::min(stops.low, stops.high)), low, whole);
+    out_.line("    texture_map {{ #for (stop, 0, {}) [stop/{} {}[stop]] #end }}", stops.steps, stops.steps,
+              array);
+    out_.line("}}");
+    return identifier;
 }
 
 std::string PovTextures::declare_blend(const std::string& name, const std::string& t,
                                        const std::vector<std::string>& textures) {
     const std::string blend = names_.make(name);
-    out_.line("#declare {} = texture {{", blend);
-    out_.indent();
-    out_.line("function {{ {} }}", t);
-    out_.line("texture_map {{");
-    out_.indent();
-    for (std::size_t i = 0; i < textures.size(); ++i) {
-        const double at = static_cast<double>(i) / static_cast<double>(textures.size() - 1);
-        out_.line("[{} {}]", number(at), textures[i]);
-    }
-    out_.dedent();
-    out_.line("}}");
-    out_.dedent();
-    out_.line("}}");
+    write(out_, block(fmt::format("#declare {} = texture", blend),
+                      {fmt::format("function {{ {} }}", t),
+                       fmt::format("texture_map {{ [0 {}] [1 {}] }}", textures[0], textures[1])}));
     return blend;
 }
 
 std::string PovTextures::declare_layers(const std::string& name, const PaintedPhong& phong) {
     const std::string identifier = names_.make(name);
-    const std::vector<std::string> layers = layers_of(phong);
+    // c^0 is 1; POV-Ray has no infinite roughness.
+    const std::string roughness = number(1 / std::max(phong.shininess.constant.r, 1e-20));
+    const std::vector<std::string> layers = layers_of(phong, roughness);
     if (layers.size() == 1) {
-        out_.line("#declare {} = {}", identifier, layers[0]);
+        write(out_, fmt::format("#declare {} = {}", identifier, layers[0]));
         return identifier;
     }
     out_.line("#declare {} =", identifier);
     out_.indent();
     for (const std::string& layer : layers) {
-        out_.raw_line(layer);
+        write(out_, layer);
     }
     out_.dedent();
     return identifier;

@@ -22,10 +22,15 @@ public:
     std::string declare(const std::string& name, const PaintedPhong& phong, Outcome& shininess);
 
 private:
+    struct Stops {
+        double low, high;
+        int steps;
+    };
     std::string declare_varying_reflect(const std::string& name, const PaintedPhong& phong,
                                         Outcome& shininess);
     std::string declare_varying_shininess(const std::string& name, const PaintedPhong& phong,
                                           Outcome& shininess);
+    std::string declare_stops(const std::string& name, const PaintedPhong& phong, const Stops& stops);
     std::string declare_blend(const std::string& name, const std::string& t,
                               const std::vector<std::string>& textures);
     std::string declare_layers(const std::string& name, const PaintedPhong& phong);

@@ -55,8 +55,10 @@ private:
     void set_axis(std::size_t axis, const L& org, const L& dir, const L& pad) {
         inverse_[axis] = 1 / dir;
         negative_[axis] = inverse_[axis] < 0;
-        low_org_[axis] = org + pad;
-        high_org_[axis] = org - pad;
+        // What the sums lose is put on top.
+        const L padding = pad + 2 * roundoff<L>() * absolute(org);
+        low_org_[axis] = org + padding;
+        high_org_[axis] = org - padding;
     }
 
     std::array<L, 3> inverse_, low_org_, high_org_;

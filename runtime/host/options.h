@@ -44,6 +44,8 @@ struct RenderOptions {
 /// Adds the options to a command; the texts are parsed as the command line is read, bad ones are CLI's usage
 /// errors.
 void add_render_options(CLI::App& app, RenderOptions& options);
+/// Those of them that say how the picture is drawn: --size, --samples, --threads.
+void add_picture_options(CLI::App& app, RenderOptions& options);
 
 /// What can be told before any work: an unknown image type, `-o -` (UsageError), a folder that cannot be
 /// written (FileError).

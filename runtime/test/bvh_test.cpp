@@ -1,1 +1,273 @@
+#include "runtime/accel/build.h"
+#include "runtime/math/pack.h"
+#include "runtime/raycast.h"
+#include "runtime/test/random_scene.h"
+
 #include <gtest/gtest.h>
+
+#include <algorithm>
+
+using namespace scc::runtime;
+using namespace scc::runtime::test;
+
+namespace {
+
+int depth_of(const std::vector<BvhNode>& nodes, std::uint32_t node) {
+    const BvhNode& n = nodes[node];
+    return n.count > 0 ? 1 : 1 + std::max(depth_of(nodes, n.first), depth_of(nodes, n.first + 1));
+}
+
+TEST(Bvh, EveryPrimitiveIsInExactlyOneLeafAndInsideItsBoxes) {
+    Random<float> random(1);
+    std::vector<Bounds<float>> boxes;
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3<float> low = random.vector(10);
+        boxes.push_back({low, low + Vec3<float>{random.number(0, 1), random.number(0, 1), 0}});
+    }
+    const Bvh bvh = build_bvh(boxes);
+    std::vector<int> seen(boxes.size());
+    for (const BvhNode& node : bvh.nodes) {
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+            const Bounds<float>& box = boxes[bvh.order[i]];
+            ++seen[bvh.order[i]];
+            EXPECT_TRUE(node.min[0] <= box.min.x && box.max.x <= node.max[0] && node.min[1] <= box.min.y &&
+                        box.max.y <= node.max[1] && node.min[2] <= box.min.z && box.max.z <= node.max[2]);
+        }
+    }
+    EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), static_cast<std::ptrdiff_t>(seen.size()));
+}
+
+TEST(Bvh, DepthIsBoundedForBoxesThatNoPlaneSeparates) {
+    const std::vector<Bounds<float>> equal(20000, {{0, 0, 0}, {1, 1, 1}});
+    EXPECT_LE(depth_of(build_bvh(equal).nodes, 0), 20);
+    std::vector<Bounds<float>> shrinking; // each split separates one box only
+    for (int i = 0; i < 126; ++i) {
+        const float x = std::ldexp(1.0F, i - 63);
+        shrinking.push_back({{x, 0, 0}, {x, 1, 1}});
+    }
+    for (int copies = 0; copies < 4; ++copies) {
+        const std::size_t count = shrinking.size();
+        shrinking.reserve(2 * count);
+        shrinking.insert(shrinking.end(), shrinking.begin(),
+                         shrinking.begin() + static_cast<std::ptrdiff_t>(count));
+    }
+    EXPECT_LE(depth_of(build_bvh(shrinking).nodes, 0), bvh_max_depth);
+}
+
+TEST(Bvh, InfiniteBoxesAreAccepted) {
+    std::vector<Bounds<float>> boxes(20, {{0, 0, 0}, {1, 1, 1}});
+    boxes[3].max.x = infinity<float>();
+    boxes[5] = {{-infinity<float>(), 0, 0}, {infinity<float>(), 1, 1}};
+    EXPECT_EQ(build_bvh(boxes).order.size(), boxes.size());
+}
+
+TEST(Bvh, OutwardRoundingContainsTheBox) {
+    const double x = 0.1, huge = 1e300;
+    const Bounds<float> b = round_outwards(Bounds<double>{{x, -x, -huge}, {x, -x, huge}});
+    EXPECT_LE(double(b.min.x), x);
+    EXPECT_GE(double(b.max.x), x);
+    EXPECT_LE(double(b.min.y), -x);
+    EXPECT_GE(double(b.max.y), -x);
+    EXPECT_LE(double(b.min.z), -huge);
+    EXPECT_GE(double(b.max.z), huge);
+}
+
+template <class T>
+class Hierarchy : public testing::Test {};
+using Reals = testing::Types<float, double, long double>;
+TYPED_TEST_SUITE(Hierarchy, Reals);
+
+template <class R>
+void fill(DynamicScene<R>& scene, Random<R>& random, int count) {
+    const auto put = [&](auto shape, std::uint32_t id) {
+        if constexpr (!is_mesh<decltype(shape)>) {
+            if constexpr (is_bounded<decltype(shape)>) {
+                randomize(shape, random, id % 2 == 0 ? 10 : 1);
+            } else {
+                shape.offset = -15;
+            }
+        }
+        if (id % 2 == 0) {
+            scene.add(Bare<decltype(shape)>{shape, {id, {}}});
+        } else {
+            const Affine<double> map = random.map(10);
+            scene.add(Placed<decltype(shape), R>{
+                shape, affine_cast<R>(map), affine_cast<R>(inverse(map)), {id, {}}});
+        }
+    };
+    std::uint32_t id = 0;
+    for (int i = 0; i < count; ++i) {
+        put(Sphere<R>{}, id++);
+        put(Triangle<R>{}, id++);
+        put(Disc<R>{}, id++);
+        put(Box<R>{}, id++);
+        put(Cylinder<R>{}, id++);
+        put(Sphere<R>{}, id++);
+        put(Mesh<R>{}, id++);
+        put(Box<R>{}, id++);
+        put(Triangle<R>{}, id++);
+    }
+    put(Plane<R>{}, id++);
+}
+
+template <class R>
+Ray<R> some_ray(Random<R>& random) {
+    Ray<R> ray{random.vector(14), random.direction() * random.number(0.3, 3)};
+    const R kind = random.number(0, 1);
+    if (kind < R(0.1)) {
+        ray.dir = {0, kind < R(0.05) ? R(1) : R(-1), 0};
+    } else if (kind < R(0.2)) {
+        ray.dir.z = R(-0.0);
+    }
+    return ray;
+}
+
+TYPED_TEST(Hierarchy, FindsWhatATestOfEveryShapeFinds) {
+    using R = TypeParam;
+    Random<R> random(11);
+    const MeshStorage mesh = ball_mesh(2, 1, {0, 0, 0});
+    DynamicScene<R> scene;
+    scene.meshes.push_back(mesh.data());
+    fill(scene, random, 12);
+    DynamicScene<R> plain = scene;
+    prepare(scene);
+    ASSERT_FALSE(scene.accelerator.nodes.empty());
+    int hits = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const Ray<R> ray = some_ray(random);
+        const Hit<R> got = closest_hit(scene, ray), expected = closest_hit(plain, ray);
+        ASSERT_EQ(got.shape.t, expected.shape.t);
+        ASSERT_EQ(got.id, expected.id);
+        ASSERT_EQ(got.shape.part, expected.shape.part);
+        ASSERT_EQ(got.kind, expected.kind);
+        ASSERT_EQ(got.index, expected.index);
+        Ray<R> feeler = ray;
+        feeler.t_max = random.number(0, 10);
+        ASSERT_EQ(any_hit(scene, feeler), any_hit(plain, feeler));
+        hits += is_hit(got) ? 1 : 0;
+    }
+    EXPECT_GT(hits, 5000);
+}
+
+TYPED_TEST(Hierarchy, FindsWhatATestOfEveryTriangleFinds) {
+    using R = TypeParam;
+    Random<R> random(12);
+    const MeshStorage mesh = ball_mesh(3, 8, {1, 2, 3});
+    MeshStorage flat = mesh;
+    flat.nodes = {mesh.nodes[0]};
+    flat.nodes[0].first = 0;
+    flat.nodes[0].count = static_cast<std::uint32_t>(flat.triangles.size());
+    for (int i = 0; i < 4000; ++i) {
+        Ray<R> ray = some_ray(random);
+        if (i % 4 == 0) { // along a triangle
+            const Corners<R> c = corners_of<R>(
+                mesh.data(), mesh.triangles[static_cast<std::size_t>(i) % mesh.triangles.size()]);
+            ray.org = c.a + (c.a - c.b) * random.number(0, 3);
+            ray.dir = (c.a + (c.c - c.a) * random.number(0, 1)) - ray.org;
+        }
+        const ShapeHit<R> got = intersect_mesh<false>(mesh.data(), ray);
+        const ShapeHit<R> expected = intersect_mesh<false>(flat.data(), ray);
+        ASSERT_EQ(got.t, expected.t);
+        if (got.t < infinity<R>()) {
+            ASSERT_EQ(mesh.triangles[got.part].id, flat.triangles[expected.part].id);
+        }
+        ASSERT_EQ(intersect_mesh<true>(mesh.data(), ray).t < infinity<R>(), got.t < infinity<R>());
+    }
+}
+
+TYPED_TEST(Hierarchy, RaysThroughSharedEdgesAndCornersDoNotLeak) {
+    using R = TypeParam;
+    Random<R> random(13);
+    for (const double distance : {0.0, 1000.0}) {
+        const Vec3<double> center{distance, 0.3 * distance, -distance};
+        const MeshStorage mesh = ball_mesh(2, 1, center);
+        const MeshData data = mesh.data();
+        for (const MeshTriangle& triangle : mesh.triangles) {
+            const Corners<R> c = corners_of<R>(data, triangle);
+            for (int i = 0; i < 30; ++i) {
+                const Vec3<R> org = lanes<R>(center) + random.vector(0.4);
+                const R s = random.number(0, 1);
+                for (const Vec3<R>& target :
+                     {c.a, (c.a + c.b) * R(0.5), c.a + (c.b - c.a) * s, c.a + (c.c - c.a) * s}) {
+                    const Ray<R> ray{org, target - org};
+                    ASSERT_LT(intersect_mesh<false>(data, ray).t, infinity<R>());
+                }
+            }
+        }
+    }
+}
+
+TYPED_TEST(Hierarchy, RaysThroughAxisParallelEdgesOfACubeDoNotLeak) {
+    using R = TypeParam;
+    std::vector<float> positions;
+    for (int corner = 0; corner < 8; ++corner) {
+        positions.insert(positions.end(),
+                         {corner & 1 ? 1.0F : -1.0F, corner & 2 ? 1.0F : -1.0F, corner & 4 ? 1.0F : -1.0F});
+    }
+    const MeshStorage cube = build_mesh(positions, {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                                                    2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5});
+    for (int i = -100; i <= 100; ++i) {
+        for (int j = -100; j <= 100; ++j) {
+            const Ray<R> ray{{0, 0, 0}, {static_cast<R>(i) / 100, static_cast<R>(j) / 100, 1}};
+            const ShapeHit<R> hit = intersect_mesh<false>(cube.data(), ray);
+            ASSERT_EQ(hit.t, 1);
+        }
+    }
+}
+
+TYPED_TEST(Hierarchy, OfCoincidentHitsTheSmallestIdCounts) {
+    using R = TypeParam;
+    DynamicScene<R> scene;
+    for (const std::uint32_t id : {5U, 9U, 2U, 7U}) { // tables need not be sorted for this
+        scene.add(Bare<Box<R>>{{}, {id, {}}});
+        scene.add(Bare<Disc<R>>{{{0, 1, 0}, {0, 1, 0}, 1, 0}, {id + 20, {}}});
+    }
+    DynamicScene<R> with_hierarchy = scene;
+    with_hierarchy.accelerator = build_accelerator(scene);
+    const Ray<R> ray{{R(0.1), 5, R(0.2)}, {0, -1, 0}};
+    EXPECT_EQ(closest_hit(scene, ray).id, 2);
+    EXPECT_EQ(closest_hit(with_hierarchy, ray).id, 2);
+    EXPECT_EQ(closest_hit(with_hierarchy, ray).shape.t, 4);
+}
+
+TYPED_TEST(Hierarchy, LanesFindWhatSingleRaysFind) {
+    using R = TypeParam;
+    using L = WidestLane<R>;
+    Random<R> random(14);
+    const MeshStorage mesh = ball_mesh(2, 1, {0, 0, 0});
+    DynamicScene<R> scene;
+    scene.meshes.push_back(mesh.data());
+    fill(scene, random, 12);
+    prepare(scene);
+    for (int round = 0; round < 2000; ++round) {
+        Ray<R> single[lane_count<L>];
+        Ray<L> packed;
+        for (int i = 0; i < lane_count<L>; ++i) {
+            single[i] = some_ray(random);
+            single[i].t_max = i % 5 == 4 ? R(-1) : single[i].t_max; // takes no part
+            const auto put = [&](Vec3<L>& to, const Vec3<R>& from) {
+                set_lane(to.x, i, from.x);
+                set_lane(to.y, i, from.y);
+                set_lane(to.z, i, from.z);
+            };
+            put(packed.org, single[i].org);
+            put(packed.dir, single[i].dir);
+            set_lane(packed.t_max, i, single[i].t_max);
+        }
+        const Hit<L> hits = closest_hit(scene, packed);
+        const MaskOf<L> blocked = any_hit(scene, packed);
+        for (int i = 0; i < lane_count<L>; ++i) {
+            const Hit<R> expected = closest_hit(scene, single[i]);
+            ASSERT_EQ(lane(hits.shape.t, i), expected.shape.t);
+            ASSERT_EQ(lane(hits.id, i), expected.id);
+            ASSERT_EQ(lane(hits.kind, i), expected.kind);
+            if (is_hit(expected)) {
+                ASSERT_EQ(lane(hits.index, i), expected.index);
+                ASSERT_EQ(lane(hits.shape.part, i), expected.shape.part);
+            }
+            ASSERT_EQ((bits(blocked) >> i & 1U) != 0, is_hit(expected));
+        }
+    }
+}
+
+} // namespace

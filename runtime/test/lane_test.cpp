@@ -57,7 +57,6 @@ TEST(Lane, DifferenceOfFloatProductsKeepsTheSignThatRoundingLoses) {
 template <class T>
 class PackOf : public testing::Test {
 public:
-    using L = WidestLane<T>;
     static std::vector<T> samples() {
         std::vector<T> result{T(0),   T(-0.0), T(1),    T(-1),    T(0.5),     T(-0.5),
                               T(1.5), T(-2.5), T(1e30), T(-1e30), T(8388609), T(-8388608.5),
@@ -67,9 +66,9 @@ public:
         }
         return result;
     }
-    static L load(const std::vector<T>& from, std::size_t first, std::size_t stride) {
-        L result(0);
-        for (int i = 0; i < lane_count<L>; ++i) {
+    static WidestLane<T> load(const std::vector<T>& from, std::size_t first, std::size_t stride) {
+        WidestLane<T> result(0);
+        for (int i = 0; i < lane_count<WidestLane<T>>; ++i) {
             set_lane(result, i, from[(first + static_cast<std::size_t>(i) * stride) % from.size()]);
         }
         return result;
@@ -77,6 +76,14 @@ public:
 };
 using PackTypes = testing::Types<float, double>;
 TYPED_TEST_SUITE(PackOf, PackTypes);
+
+#define SCC_OPERATOR(name, arity, value, cpp, sdl, blender)                                                  \
+    template <class L>                                                                                       \
+    L name##_of([[maybe_unused]] L a, [[maybe_unused]] L b, [[maybe_unused]] L c) {                          \
+        return L(value);                                                                                     \
+    }
+#include "runtime/operators.def"
+#undef SCC_OPERATOR
 
 template <class T>
 auto to_bits(T x) {
@@ -92,20 +99,18 @@ TYPED_TEST(PackOf, EveryOperatorGivesTheScalarBits) {
     using L = WidestLane<T>;
     const std::vector<T> samples = this->samples();
     for (std::size_t first = 0; first < samples.size(); ++first) {
-        const L a = this->load(samples, first, 1), b = this->load(samples, first * 7 + 3, 5);
-        const L c = this->load(samples, first * 3 + 1, 11);
+        const L first_operand = this->load(samples, first, 1), second = this->load(samples, first * 7 + 3, 5);
+        const L third = this->load(samples, first * 3 + 1, 11);
         const auto check = [&](const char* name, const L& got, auto&& scalar) {
             for (int i = 0; i < lane_count<L>; ++i) {
-                const T x = lane(a, i), y = lane(b, i), z = lane(c, i);
+                const T x = lane(first_operand, i), y = lane(second, i), z = lane(third, i);
                 const T expected = T(scalar(x, y, z));
                 EXPECT_TRUE(same(lane(got, i), expected)) << name << "(" << x << ", " << y << ", " << z
                                                           << ") = " << lane(got, i) << ", not " << expected;
             }
         };
 #define SCC_OPERATOR(name, arity, value, cpp, sdl, blender)                                                  \
-    check(                                                                                                   \
-        #name, [](L a, [[maybe_unused]] L b, [[maybe_unused]] L c) { return L(value); }(a, b, c),            \
-        [](T a, [[maybe_unused]] T b, [[maybe_unused]] T c) { return value; });
+    check(#name, name##_of(first_operand, second, third), [](T x, T y, T z) { return name##_of(x, y, z); });
 #include "runtime/operators.def"
 #undef SCC_OPERATOR
     }

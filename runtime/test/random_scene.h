@@ -1,6 +1,7 @@
 #pragma once
 
 #include "runtime/accel/build.h"
+#include "runtime/raycast.h"
 
 #include <cmath>
 #include <map>
@@ -136,7 +137,7 @@ struct SingleShape {
             randomize(shape, random, placed ? 1 : distance);
         }
         if (placed) {
-            const Affine<double> map = random.map(distance);
+            const Affine<long double> map = affine_cast<long double>(random.map(distance));
             world_from_object = affine_cast<R>(map);
             scene.add(Placed<Shape, R>{shape, world_from_object, affine_cast<R>(inverse(map)), {}});
         } else {

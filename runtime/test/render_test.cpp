@@ -1,1 +1,263 @@
+#include "runtime/render.h"
+#include "runtime/test/lecture_scene.h"
+#include "runtime/test/random_scene.h"
+
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+using namespace scc::runtime;
+using namespace scc::runtime::test;
+
+namespace {
+
+template <class S>
+Image draw(const S& scene, RenderRequest request) {
+    Image image(request.crop.x1 - request.crop.x0, request.crop.y1 - request.crop.y0);
+    EXPECT_TRUE(render(scene, request, image).complete);
+    return image;
+}
+
+bool same_bits(const Image& a, const Image& b) {
+    return a.pixels.size() == b.pixels.size() &&
+           std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(float)) == 0;
+}
+
+bool is_varied(const Image& image) {
+    const auto [low, high] = std::minmax_element(image.pixels.begin(), image.pixels.end());
+    return *low >= 0 && *high > *low + 0.3F;
+}
+
+/// Every kind of shape, bare and placed, with meshes, functions and both kinds of lights.
+template <class R>
+struct Crowd {
+    MeshStorage mesh = ball_mesh(2, 1, {0, 0, 0});
+    DynamicScene<R> scene;
+
+    explicit Crowd(int per_kind) {
+        Random<R> random(21);
+        fill_materials(random);
+        scene.meshes.push_back(mesh.data());
+        std::uint32_t id = 0;
+        const auto put = [&]<class Shape>(Shape shape) {
+            for (int i = 0; i < 2 * per_kind; ++i, ++id) {
+                if constexpr (requires { shape.normals; }) {
+                    shape.smooth = i % 3 == 0;
+                    shape.normals = {random.direction(), random.direction(), random.direction()};
+                }
+                const Tag tag{id, {id % 4, (id / 2) % 4}};
+                if (i % 2 == 0) {
+                    randomize_near(shape, random, 4);
+                    scene.add(Bare<Shape>{shape, tag});
+                } else {
+                    randomize_near(shape, random, 1);
+                    const Affine<double> map = random.map(4);
+                    scene.add(
+                        Placed<Shape, R>{shape, affine_cast<R>(map), affine_cast<R>(inverse(map)), tag});
+                }
+            }
+        };
+        for_each_shape(Shapes<R>{}, put);
+        scene.point_lights.push_back(
+            {{5, 9, 7}, {1, R(0.9), R(0.8)}, {R(0.5), R(0.5), 1}, 1, R(0.02), R(0.01)});
+        scene.directional_lights.push_back(
+            {normalize(Vec3<R>{-1, 2, 1}), {R(0.4), R(0.4), R(0.4)}, {R(0.4), R(0.4), R(0.4)}});
+        scene.camera.eye = {0, 1, 14};
+        scene.camera.half_height = R(0.5);
+        scene.ambient = {R(0.3), R(0.3), R(0.3)};
+        scene.background = {R(0.1), R(0.2), R(0.3)};
+        prepare(scene);
+    }
+
+    template <class... Shape, class F>
+    static void for_each_shape(TypeList<Shape...>, F&& f) {
+        (f(Shape{}), ...);
+    }
+    template <class Shape>
+    static void randomize_near(Shape& shape, Random<R>& random, double distance) {
+        if constexpr (requires { shape.offset; }) {
+            shape = {random.direction(), -7};
+        } else if constexpr (!is_mesh<Shape>) {
+            randomize(shape, random, distance);
+        }
+    }
+    void fill_materials(Random<R>& random) {
+        for (int i = 0; i < 4; ++i) {
+            const auto color = [&](double most) {
+                return Rgb<R>{random.number(0, most), random.number(0, most), random.number(0, most)};
+            };
+            Phong<R> material;
+            material.ambient.value = color(0.5);
+            material.diffuse.value = color(0.8);
+            material.specular.value = i == 0 ? Rgb<R>{} : color(0.5);
+            material.reflect.value = i == 1 ? color(0.6) : Rgb<R>{};
+            material.emission.value = i == 2 ? color(0.2) : Rgb<R>{};
+            scene.materials.push_back(material);
+        }
+        scene.materials[3].diffuse.function = 0;
+        scene.materials[2].shininess.function = 1;
+        scene.functions.push_back(
+            {{{Opcode::world_x}, {Opcode::sin, {0}}, {Opcode::n_y}, {Opcode::abs, {2}}}, {3, 3, 1}});
+        scene.functions.push_back(
+            {{{Opcode::p_z}, {Opcode::constant, {}, R(5)}, {Opcode::pow, {1, 0}}}, {2}});
+    }
+};
+
+/// A scene compiled with fewer traits than its tables' generic twin.
+template <class R, SceneTraits narrow>
+struct Restricted : DynamicScene<R> {
+    static constexpr SceneTraits traits = narrow;
+    explicit Restricted(const DynamicScene<R>& scene) : DynamicScene<R>(scene) {}
+};
+
+template <class T>
+class Rendering : public testing::Test {};
+using Reals = testing::Types<float, double, long double>;
+TYPED_TEST_SUITE(Rendering, Reals);
+
+TYPED_TEST(Rendering, CompiledSceneDrawsTheGenericImage) {
+    RenderRequest wanted = request(203, 117);
+    wanted.settings.samples_per_axis = 2;
+    const Image compiled = draw(LectureScene<TypeParam>{}, wanted);
+    EXPECT_TRUE(is_varied(compiled));
+    EXPECT_TRUE(same_bits(compiled, draw(generic_lecture_scene<TypeParam>(), wanted)));
+}
+
+TYPED_TEST(Rendering, LeavingOutWhatASceneLacksChangesNothing) {
+    constexpr SceneTraits narrow = [] {
+        SceneTraits result = everything;
+        result.bare_shapes = 1U << 0 | 1U << 1;
+        result.placed_shapes = 1U << 0 | 1U << 6;
+        result.directional_lights = result.attenuation = result.separate_specular = result.emission = false;
+        result.reflection = result.two_sided = result.functions = result.smooth_normals = false;
+        result.accelerator = result.orthographic = false;
+        return result;
+    }();
+    const Crowd<TypeParam> crowd(2);
+    DynamicScene<TypeParam> scene;
+    scene.meshes = crowd.scene.meshes;
+    for (MeshData& mesh : scene.meshes) {
+        mesh.normals = nullptr;
+    }
+    scene.materials = {crowd.scene.materials[0]};
+    scene.materials[0].specular.value = {1, 1, 1};
+    scene.camera = crowd.scene.camera;
+    scene.ambient = crowd.scene.ambient;
+    scene.point_lights.push_back({{5, 9, 7}});
+    const auto add_all = [&](auto of) {
+        for (auto primitive : crowd.scene.primitives(of)) {
+            primitive.tag.sides = {};
+            scene.add(primitive);
+        }
+    };
+    add_all(Of<Bare<Sphere<TypeParam>>>{});
+    add_all(Of<Bare<Box<TypeParam>>>{});
+    add_all(Of<Placed<Sphere<TypeParam>, TypeParam>>{});
+    add_all(Of<Placed<Mesh<TypeParam>, TypeParam>>{});
+    prepare(scene);
+    const RenderRequest wanted = request(160, 120);
+    const Image generic = draw(scene, wanted);
+    EXPECT_TRUE(is_varied(generic));
+    EXPECT_TRUE(same_bits(generic, draw(Restricted<TypeParam, narrow>(scene), wanted)));
+}
+
+TYPED_TEST(Rendering, HierarchyDrawsTheImageOfTheLoop) {
+    const Crowd<TypeParam> crowd(3);
+    ASSERT_FALSE(crowd.scene.accelerator.nodes.empty());
+    DynamicScene<TypeParam> plain = crowd.scene;
+    plain.accelerator = {};
+    const RenderRequest wanted = request(160, 120);
+    const Image image = draw(crowd.scene, wanted);
+    EXPECT_TRUE(is_varied(image));
+    EXPECT_TRUE(same_bits(image, draw(plain, wanted)));
+}
+
+TYPED_TEST(Rendering, SingleLanesDrawTheImageOfFullRegisters) {
+    const Crowd<TypeParam> crowd(3);
+    RenderRequest wanted = request(101, 75);
+    const Image image = draw(crowd.scene, wanted);
+    Image one_by_one(101, 75);
+    render_with_lanes<TypeParam>(crowd.scene, wanted, one_by_one);
+    EXPECT_TRUE(same_bits(image, one_by_one));
+}
+
+TYPED_TEST(Rendering, ThreadsAndCropsDoNotChangeThePixels) {
+    const LectureScene<TypeParam> scene;
+    const Image whole = draw(scene, request(203, 117));
+    EXPECT_TRUE(same_bits(whole, draw(scene, request(203, 117, 2))));
+    EXPECT_TRUE(same_bits(whole, draw(scene, request(203, 117, 7))));
+    RenderRequest part = request(203, 117, 3);
+    part.crop = {53, 31, 190, 112};
+    const Image cropped = draw(scene, part);
+    for (int y = 0; y < cropped.height; ++y) {
+        EXPECT_EQ(std::memcmp(cropped.at(0, y), whole.at(53, 31 + y), sizeof(float) * 3 * 137), 0) << y;
+    }
+}
+
+TEST(Render, SamplesAreTheCentresOfSubPixelsWithABoxFilter) {
+    const LectureScene<double> scene;
+    RenderRequest wanted = request(64, 48);
+    wanted.settings.samples_per_axis = 3;
+    const Image sampled = draw(scene, wanted), fine = draw(scene, request(192, 144));
+    int differing = 0;
+    for (int y = 0; y < 48; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            double sum = 0;
+            for (int i = 0; i < 9; ++i) {
+                sum += static_cast<double>(fine.at(3 * x + i % 3, 3 * y + i / 3)[0]);
+            }
+            differing += std::abs(sum / 9 - static_cast<double>(sampled.at(x, y)[0])) > 1e-6 ? 1 : 0;
+        }
+    }
+    EXPECT_LE(differing, 3); // a sample exactly on an edge may fall to either side
+}
+
+TEST(Render, CountsItsRays) {
+    const LectureScene<double> scene;
+    Image image(50, 40);
+    RenderRequest wanted = request(50, 40, 2);
+    wanted.settings.samples_per_axis = 2;
+    const RenderResult result = render(scene, wanted, image);
+    EXPECT_EQ(result.rays.primary, 50U * 40 * 4);
+    EXPECT_GT(result.rays.shadow, result.rays.primary / 2);
+    EXPECT_GT(result.rays.reflected, 0U);
+    Image other(50, 40);
+    const RenderResult generic = render_with_lanes<double>(generic_lecture_scene<double>(), wanted, other);
+    EXPECT_EQ(generic.rays.shadow, result.rays.shadow);
+    EXPECT_EQ(generic.rays.reflected, result.rays.reflected);
+}
+
+TEST(Render, ProgressCanEndItEarly) {
+    const LectureScene<double> scene;
+    RenderRequest wanted = request(640, 480, 2);
+    wanted.settings.samples_per_axis = 30;
+    int calls = 0;
+    double part = -1;
+    wanted.progress = [&](double done) {
+        part = done;
+        return ++calls < 2;
+    };
+    Image image(640, 480);
+    EXPECT_FALSE(render(scene, wanted, image).complete);
+    EXPECT_EQ(calls, 2);
+    EXPECT_GT(part, 0);
+    EXPECT_LT(part, 1);
+}
+
+TEST(Camera, PixelCentresAndTheWindowsShift) {
+    Camera<double> camera; // at (0, 0, 5), looking down -z
+    camera.half_height = 0.5;
+    const Ray<double> first = camera_ray(camera, Projection::perspective, 0.5, 0.5, 4, 2);
+    EXPECT_EQ(first.org, (Vec3<double>{0, 0, 5}));
+    EXPECT_EQ(first.dir, (Vec3<double>{-0.75, 0.25, -1}));
+    camera.shift_x = 0.5;
+    camera.shift_y = -1;
+    const Ray<double> shifted = camera_ray(camera, Projection::perspective, 0.5, 0.5, 4, 2);
+    EXPECT_EQ(shifted.dir, (Vec3<double>{-0.25, -0.75, -1}));
+    const Ray<double> parallel = camera_ray(camera, Projection::orthographic, 0.5, 0.5, 4, 2);
+    EXPECT_EQ(parallel.org, (Vec3<double>{-0.25, -0.75, 5}));
+    EXPECT_EQ(parallel.dir, (Vec3<double>{0, 0, -1}));
+}
+
+} // namespace

@@ -1,1 +1,311 @@
+#include "runtime/raycast.h"
+#include "runtime/test/random_scene.h"
+#include "runtime/test/signed_distance.h"
+
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <type_traits>
+
+using namespace scc::runtime;
+using namespace scc::runtime::test;
+
+namespace {
+
+template <class... Lists>
+struct Joined;
+template <class... A>
+struct Joined<TypeList<A...>> {
+    using type = testing::Types<A...>;
+};
+template <class... A, class... B, class... Rest>
+struct Joined<TypeList<A...>, TypeList<B...>, Rest...> : Joined<TypeList<A..., B...>, Rest...> {};
+
+template <class Shape>
+struct RealOfShape;
+template <template <class> class Shape, class R>
+struct RealOfShape<Shape<R>> {
+    using type = R;
+};
+
+template <class Shape>
+class EveryShape : public testing::Test {
+public:
+    using Real = typename RealOfShape<Shape>::type;
+    static constexpr double eps = static_cast<double>(std::numeric_limits<Real>::epsilon());
+
+    /// f(single, random) for bare and placed shapes, near the origin and farther off.
+    template <class F>
+    static void for_scenes(int count, F&& f) {
+        Random<Real> random(7);
+        for (const double distance : {2.0, 300.0}) {
+            for (int i = 0; i < count; ++i) {
+                f(SingleShape<Shape, Real>(random, i % 2 == 1, distance), random);
+            }
+        }
+    }
+
+    /// f(single, random, ray, hit, surface) for hits of such scenes.
+    template <class F>
+    static void for_hits(int count, F&& f) {
+        int hits = 0;
+        for_scenes(count, [&](const SingleShape<Shape, Real>& single, Random<Real>& random) {
+            for (int i = 0; i < 20; ++i) {
+                const Ray<Real> ray = single.ray_towards(random);
+                const Hit<Real> hit = closest_hit(single.scene, ray);
+                if (is_hit(hit)) {
+                    ++hits;
+                    f(single, random, ray, hit, single.surface(ray, hit));
+                }
+            }
+        });
+        EXPECT_GT(hits, count * 4);
+    }
+
+    /// Whether no ray that starts on the surface, on the side that `dir` goes to, can meet the shape again.
+    static bool is_left_for_good(const SingleShape<Shape, Real>& single, const WorldSurface<Real>& at,
+                                 const Vec3<Real>& dir) {
+        const bool outwards = dot(at.surface.normal, dir) > 0;
+        if constexpr (requires { single.shape.hole; } || std::is_same_v<Shape, Triangle<Real>> ||
+                      std::is_same_v<Shape, Plane<Real>>) {
+            return true;
+        }
+        return outwards && !is_mesh<Shape>;
+    }
+};
+
+using AllShapes = Joined<Shapes<float>, Shapes<double>, Shapes<long double>>::type;
+TYPED_TEST_SUITE(EveryShape, AllShapes);
+
+TYPED_TEST(EveryShape, HitIsOnTheSurfaceWithinTheStatedBound) {
+    using R = typename RealOfShape<TypeParam>::type;
+    if constexpr (is_mesh<TypeParam> || std::is_same_v<R, long double>) {
+        GTEST_SKIP() << "no independent distance in a wider type";
+    } else {
+        double largest = 0;
+        this->for_hits(
+            400, [&](const auto& single, auto&, const auto&, const auto&, const WorldSurface<R>& at) {
+                const Affine<long double> back = inverse(affine_cast<long double>(single.world_from_object));
+                const Wide p = transform_point(back, lanes<long double>(at.surface.point));
+                const Wide n = normalize(transform_normal(affine_cast<long double>(single.world_from_object),
+                                                          lanes<long double>(at.surface.normal)));
+                const Wide bound = transform_magnitude(back, lanes<long double>(at.surface.error));
+                const long double off = std::abs(signed_distance(single.shape, p, n));
+                EXPECT_LE(off, dot(absolute(n), bound));
+                largest = std::max(largest, static_cast<double>(off / dot(absolute(n), bound)));
+            });
+        EXPECT_LT(largest, 1);
+        this->RecordProperty("largest_part_of_bound", std::to_string(largest));
+    }
+}
+
+TYPED_TEST(EveryShape, NormalIsTheNormalisedGradient) {
+    using R = typename RealOfShape<TypeParam>::type;
+    if constexpr (is_mesh<TypeParam>) {
+        GTEST_SKIP() << "piecewise flat: see Mesh";
+    } else {
+        this->for_hits(
+            100, [&](const auto& single, auto&, const auto&, const auto&, const WorldSurface<R>& at) {
+                const Wide p = lanes<long double>(at.object_point);
+                const Wide n = transform_normal(affine_cast<long double>(single.world_from_object),
+                                                lanes<long double>(at.surface.normal));
+                const Wide unit = normalize(n);
+                const long double h = 1e-4L;
+                const auto slope = [&](const Wide& d) {
+                    return (signed_distance(single.shape, p + d, unit) -
+                            signed_distance(single.shape, p - d, unit)) /
+                           (2 * h);
+                };
+                const Wide gradient{slope({h, 0, 0}), slope({0, h, 0}), slope({0, 0, h})};
+                EXPECT_NEAR(static_cast<double>(length(gradient - unit)), 0, 1e-6 + 3000 * this->eps);
+                EXPECT_NEAR(static_cast<double>(length(at.surface.normal)), 1, 4 * this->eps);
+            });
+    }
+}
+
+TYPED_TEST(EveryShape, HitIsInsideTheBounds) {
+    using R = typename RealOfShape<TypeParam>::type;
+    if constexpr (!is_bounded<TypeParam>) {
+        GTEST_SKIP() << "unbounded";
+    } else {
+        this->for_hits(200,
+                       [&](const auto& single, auto&, const auto&, const auto&, const WorldSurface<R>& at) {
+                           const Bounds<R> b = single.bounds();
+                           const Vec3<R> p = at.surface.point, e = at.surface.error;
+                           EXPECT_TRUE(b.min.x <= p.x + e.x && p.x - e.x <= b.max.x);
+                           EXPECT_TRUE(b.min.y <= p.y + e.y && p.y - e.y <= b.max.y);
+                           EXPECT_TRUE(b.min.z <= p.z + e.z && p.z - e.z <= b.max.z);
+                       });
+    }
+}
+
+TYPED_TEST(EveryShape, AnyHitExistsExactlyWhereAClosestHitDoes) {
+    using R = typename RealOfShape<TypeParam>::type;
+    int met = 0, missed = 0;
+    this->for_scenes(100, [&](const auto& single, Random<R>& random) {
+        for (int i = 0; i < 20; ++i) {
+            Ray<R> ray = single.ray_towards(random);
+            const Hit<R> hit = closest_hit(single.scene, ray);
+            EXPECT_EQ(any_hit(single.scene, ray), is_hit(hit));
+            (is_hit(hit) ? met : missed) += 1;
+            if (is_hit(hit)) {
+                ray.t_max = hit.shape.t;
+                EXPECT_TRUE(any_hit(single.scene, ray));
+                ray.t_max = std::nextafter(hit.shape.t, R(0));
+                EXPECT_FALSE(any_hit(single.scene, ray));
+            }
+        }
+    });
+    EXPECT_GT(met, 500);
+    if (!std::is_same_v<TypeParam, Plane<R>>) {
+        EXPECT_GT(missed, 50);
+    }
+}
+
+/// A direction that leaves to the normal's side; `slope` is its sine above the surface.
+template <class R>
+Vec3<R> leaving(const Vec3<R>& normal, R slope, Random<R>& random) {
+    const Vec3<R> tangent = normalize(cross(normal, random.direction()));
+    return normalize(tangent + normal * slope) * random.number(0.2, 5);
+}
+
+TYPED_TEST(EveryShape, RayLeavingTheSurfaceDoesNotMeetItAgain) {
+    using R = typename RealOfShape<TypeParam>::type;
+    int checked = 0;
+    this->for_hits(
+        150, [&](const auto& single, Random<R>& random, const auto&, const auto&, const WorldSurface<R>& at) {
+            for (const double slope : {3.0, 0.1, 1e-3, 1e-5, 1e-7, 1e-10, 1e-14, 0.0}) {
+                for (const int side : {1, -1}) {
+                    const Vec3<R> dir = leaving<R>(at.surface.normal * R(side), R(slope), random);
+                    // A plane has no end at which a ray along it, to within rounding, would have left it.
+                    const R flattest =
+                        is_bounded<TypeParam> ? R(0) : 64 * std::numeric_limits<R>::epsilon() * length(dir);
+                    if (dot(dir, at.surface.normal) * R(side) > flattest &&
+                        this->is_left_for_good(single, at, dir)) {
+                        ++checked;
+                        const Ray<R> ray{start_off(at.surface, dir), dir, spawned_t_min<R>(), infinity<R>()};
+                        EXPECT_FALSE(any_hit(single.scene, ray))
+                            << "slope " << slope << ", t " << closest_hit(single.scene, ray).shape.t;
+                    }
+                }
+            }
+        });
+    if (!is_mesh<TypeParam>) {
+        EXPECT_GT(checked, 3000);
+    }
+}
+
+TYPED_TEST(EveryShape, RayGoingInsideMeetsTheFarSideOnly) {
+    using R = typename RealOfShape<TypeParam>::type;
+    this->for_hits(
+        100, [&](const auto& single, Random<R>& random, const auto&, const auto&, const WorldSurface<R>& at) {
+            if constexpr (requires { single.shape.caps; }) {
+                if (!single.shape.caps) {
+                    return;
+                }
+            }
+            const Vec3<R> dir = leaving<R>(-at.surface.normal, R(0.5), random);
+            if (this->is_left_for_good(single, at, dir)) {
+                return; // has no inside
+            }
+            const Ray<R> ray{start_off(at.surface, dir), dir, spawned_t_min<R>(), infinity<R>()};
+            const Hit<R> hit = closest_hit(single.scene, ray);
+            ASSERT_TRUE(is_hit(hit));
+            const WorldSurface<R> far = single.surface(ray, hit);
+            EXPECT_GT(dot(far.surface.normal, dir), 0) << "leaves there";
+            const Ray<R> outside{start_off(far.surface, dir), dir, spawned_t_min<R>(), infinity<R>()};
+            EXPECT_FALSE(any_hit(single.scene, outside));
+        });
+}
+
+TYPED_TEST(EveryShape, MovingRayAndObjectTogetherKeepsTheDistance) {
+    using R = typename RealOfShape<TypeParam>::type;
+    this->for_scenes(100, [&](const auto& single, Random<R>& random) {
+        const Affine<long double> map = affine_cast<long double>(random.map(3));
+        const Affine<long double> old = affine_cast<long double>(single.world_from_object);
+        DynamicScene<R> moved;
+        moved.meshes = single.scene.meshes;
+        moved.add(Placed<TypeParam, R>{
+            single.shape, affine_cast<R>(compose(map, old)), affine_cast<R>(inverse(compose(map, old))), {}});
+        for (int i = 0; i < 10; ++i) {
+            const Ray<R> ray = single.ray_towards(random);
+            const Hit<R> hit = closest_hit(single.scene, ray);
+            const Hit<R> other = closest_hit(moved, transform_ray(affine_cast<R>(map), ray));
+            if (is_hit(hit) && is_hit(other)) {
+                const WorldSurface<R> at = single.surface(ray, hit);
+                const R slope = dot(at.surface.normal, ray.dir) / length(ray.dir);
+                if (slope < R(-0.1) || slope > R(0.1)) {
+                    EXPECT_NEAR(static_cast<double>(hit.shape.t / other.shape.t), 1, 2e5 * this->eps);
+                }
+            }
+        }
+    });
+}
+
+TEST(Sphere, RayFromInsideHitsFarSide) {
+    const Sphere<double> sphere{{1, 0, 0}, 2};
+    EXPECT_DOUBLE_EQ(sphere.intersect(Ray<double>{{1, 0, 0}, {0, 0, 0.5}}).t, 4);
+}
+
+TEST(Sphere, SmallAndFarIsHitWhereItIs) {
+    const Sphere<float> sphere{{0, 0, -10000}, 0.5F};
+    EXPECT_FLOAT_EQ(sphere.intersect(Ray<float>{{0, 0, 0}, {0, 0, -1}}).t, 9999.5F);
+    EXPECT_EQ(sphere.intersect(Ray<float>{{0.501F, 0, 0}, {0, 0, -1}}).t, infinity<float>());
+    EXPECT_LT(sphere.intersect(Ray<float>{{0.499F, 0, 0}, {0, 0, -1}}).t, infinity<float>());
+}
+
+TEST(Box, RayAlongAFaceIsInsideTheSlab) {
+    const Box<double> box{{-1, -1, -1}, {1, 1, 1}};
+    EXPECT_DOUBLE_EQ(box.intersect(Ray<double>{{1, 0, 5}, {0, 0, -1}}).t, 4);
+    EXPECT_DOUBLE_EQ(box.intersect(Ray<double>{{1, 0, 5}, {-0.0, 0, -1}}).t, 4);
+    EXPECT_EQ(box.intersect(Ray<double>{{1.0000001, 0, 5}, {0, 0, -1}}).t, infinity<double>());
+}
+
+TEST(Box, PartsAreTheFaces) {
+    const Box<double> box{{-1, -1, -1}, {1, 1, 1}};
+    const Vec3<double> axes[6] = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}};
+    for (std::uint32_t face = 0; face < 6; ++face) {
+        EXPECT_EQ(box.intersect(Ray<double>{axes[face] * 3.0, -axes[face]}).part, face);
+        EXPECT_EQ(box.intersect(Ray<double>{{0, 0, 0}, axes[face]}).part, face);
+    }
+}
+
+TEST(Cylinder, CapsCloseItAndAnOpenOneShowsItsInside) {
+    const Ray<double> down{{0.1, 5, 0.1}, {0, -1, 0}};
+    EXPECT_DOUBLE_EQ((Cylinder<double>{{0, 0, 0}, {0, 2, 0}, 1, true}.intersect(down).t), 3);
+    EXPECT_EQ((Cylinder<double>{{0, 0, 0}, {0, 2, 0}, 1, false}.intersect(down).t), infinity<double>());
+    const Ray<double> slanted{{0, 3, 0}, {1, -1.5, 0}};
+    EXPECT_DOUBLE_EQ((Cylinder<double>{{0, 0, 0}, {0, 2, 0}, 1, false}.intersect(slanted).t), 1);
+}
+
+TEST(Cylinder, NoRaySlipsThroughTheRim) {
+    const Cylinder<float> cylinder{{0.1F, 0.2F, 0.3F}, {1.3F, 0.7F, -0.4F}, 0.35F, true};
+    const Vec3<float> axis = normalize(cylinder.to - cylinder.from),
+                      u = normalize(cross(axis, Vec3<float>{0, 1, 0}));
+    const Vec3<float> v = cross(axis, u), inside = (cylinder.from + cylinder.to) * 0.5F;
+    for (int i = 0; i < 5000; ++i) {
+        const float a = 0.00125F * static_cast<float>(i);
+        const Vec3<float> rim = cylinder.to + u * (std::cos(a) * 0.35F) + v * (std::sin(a) * 0.35F);
+        EXPECT_LT(cylinder.intersect(Ray<float>{inside, rim - inside}).t, infinity<float>());
+    }
+}
+
+TEST(Disc, HoleLetsRaysThrough) {
+    const Disc<double> disc{{0, 0, 0}, {0, 0, 2}, 1, 0.5};
+    EXPECT_DOUBLE_EQ(disc.intersect(Ray<double>{{0.6, 0, 3}, {0, 0, -1}}).t, 3);
+    EXPECT_EQ(disc.intersect(Ray<double>{{0.4, 0, 3}, {0, 0, -1}}).t, infinity<double>());
+    EXPECT_EQ(disc.intersect(Ray<double>{{1.1, 0, 3}, {0, 0, -1}}).t, infinity<double>());
+    EXPECT_EQ(disc.intersect(Ray<double>{{-3, 0, 0}, {1, 0, 0}}).t, infinity<double>());
+}
+
+TEST(Triangle, NormalPointsToTheCounterClockwiseSide) {
+    Triangle<double> triangle{{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}};
+    const Ray<double> ray{{0.2, 0.2, -1}, {0, 0, 1}};
+    EXPECT_EQ(triangle.surface(ray, triangle.intersect(ray)).normal, (Vec3<double>{0, 0, 1}));
+    triangle.smooth = true;
+    triangle.normals = {{{0, 0, 3}, {1, 0, 0}, {0, 0.5, 0}}};
+    const Vec3<double> expected = normalize(Vec3<double>{0.2, 0.2, 0.6});
+    EXPECT_LT(length(triangle.surface(ray, triangle.intersect(ray)).shading_normal - expected), 1e-15);
+}
+
+} // namespace

@@ -62,7 +62,7 @@ TEST(Compare, HandComputedCase) {
     EXPECT_EQ(metrics.all.p50, 0);
     EXPECT_EQ(metrics.all.p90, 0.5);
     EXPECT_EQ(metrics.all.above(1e-6), 2U);
-    EXPECT_LT(metrics.ssim, 0.99);
+    EXPECT_LT(metrics.ssim, 0.999);
     EXPECT_GT(metrics.delta_e_max, 10);
 }
 

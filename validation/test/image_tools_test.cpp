@@ -23,11 +23,11 @@ std::size_t edge_pixels(const std::vector<unsigned char>& mask) {
 
 TEST(BoxAverage, IsTheMeanOfEachBlock) {
     Image image(4, 2, 1);
-    image.pixels = {1, 2, 10, 20, 3, 4, 30, 40};
+    image.pixels = {1, 2, 10, 20, 3, 8, 30, 80};
     const Image average = box_average(image, 2);
     EXPECT_EQ(average.width, 2);
     EXPECT_EQ(average.height, 1);
-    EXPECT_EQ(average.pixels, (std::vector<float>{2.5, 25}));
+    EXPECT_EQ(average.pixels, (std::vector<float>{3.5, 35}));
 }
 
 TEST(BoxAverage, KeepsChannelsApart) {

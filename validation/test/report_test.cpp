@@ -167,7 +167,7 @@ TEST(Report, BytesThatAreNotUtf8DoNotStopIt) {
     report.scenes[0].renderers[0].warnings = {"\xff\xfe"};
     const ScratchFolder folder;
     write_report(report, folder.path());
-    EXPECT_NO_THROW(static_cast<void>(nlohmann::json::parse(text_of(folder.path() / "report.json"))));
+    EXPECT_TRUE(nlohmann::json::accept(text_of(folder.path() / "report.json")));
 }
 
 TEST(Report, FolderThatCannotBeMadeIsNamed) {

@@ -100,12 +100,13 @@ TEST(Subprocess, RunsInTheDirectoryWithTheAddedEnvironmentAndNoInput) {
     const ScratchFolder folder;
     Command command;
     command.program = "sh";
-    command.arguments = {"-c", "pwd; echo $SCC_TEST_VALUE; cat; test -n \"$PATH\""};
+    command.arguments = {"-c", "pwd -P; printenv PWD; echo $SCC_TEST_VALUE; cat; test -n \"$PATH\""};
     command.directory = folder.path();
     command.environment = {{"SCC_TEST_VALUE", "a=b c"}};
     const ProcessResult result = run(command);
     EXPECT_TRUE(result.ok());
-    EXPECT_EQ(result.out, fs::canonical(folder.path()).string() + "\na=b c\n");
+    EXPECT_EQ(result.out,
+              fs::canonical(folder.path()).string() + "\n" + folder.path().string() + "\na=b c\n");
 }
 
 TEST(Subprocess, TimeOutEndsTheWholeGroup) {

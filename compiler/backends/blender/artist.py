@@ -1,6 +1,6 @@
 # ---------------------------------------------------------------- artist look
 # Principled materials, lamps with a size, many samples: to work on, not to compare with.
-def artist_surface(g, fields, hit):
+def principled(g, fields):
     shader = g.add("ShaderNodeBsdfPrincipled")
     reflect = fields.get("reflect", (0.0, 0.0, 0.0))
     metallic = 0.0 if isinstance(reflect, bpy.types.NodeSocket) else max(reflect)
@@ -24,6 +24,18 @@ def artist_surface(g, fields, hit):
         for link in shader.inputs["Roughness"].links:
             g.tree.links.remove(link)
     return shader.outputs[0]
+
+
+def artist_surface(g, sides, hit):
+    shaders = [principled(g, fields) for fields in sides]
+    #: two_sided
+    if len(shaders) > 1:
+        mix = g.add("ShaderNodeMixShader")
+        for socket, value in zip(mix.inputs, (hit["Back"], *shaders)):
+            g.put(socket, value)
+        return mix.outputs[0]
+    #: end
+    return shaders[0]
 
 
 #: light

@@ -79,21 +79,6 @@ def one_side(g, name, hit):
     return fields
 
 
-#: two_sided
-def either_side(g, front, back, side):
-    fields = {}
-    for key, a in front.items():
-        b = back[key]
-        if a == b:
-            fields[key] = a
-        elif key == "shininess":
-            fields[key] = g.f("MULTIPLY_ADD", side, b, g.f("MULTIPLY", g.f("SUBTRACT", 1.0, side), a))
-        else:
-            fields[key] = choose(g, side, a, b)
-    return fields
-
-
-#: end
 class Materials:
     """Made when first used: one per kind of surface and pair of sides."""
 
@@ -118,12 +103,8 @@ class Materials:
         material.node_tree.nodes.clear()
         g = Graph(material.node_tree)
         hit = g.group(self.hits[kind, single])
-        fields = one_side(g, front, hit)
-        #: two_sided
-        if back != front:
-            fields = either_side(g, fields, one_side(g, back, hit), hit["Back"])
-        #: end
-        g.put(g.add("ShaderNodeOutputMaterial").inputs["Surface"], self.surface(g, fields, hit))
+        sides = [one_side(g, side, hit) for side in dict.fromkeys((front, back))]
+        g.put(g.add("ShaderNodeOutputMaterial").inputs["Surface"], self.surface(g, sides, hit))
         return material
 
 
@@ -250,7 +231,7 @@ def add_camera(scene, collection):
     data = own(bpy.data.cameras.new("camera"))
     ob = new_object(collection, "camera", data)
     columns = [(*CAMERA[key], float(key == "eye")) for key in ("right", "up", "back", "eye")]
-    ob.matrix_world = Matrix(columns).transposed()
+    ob.matrix_world = mathutils.Matrix(columns).transposed()
     data.type, data.sensor_fit = CAMERA["type"], "VERTICAL"
     if data.type == "PERSP":
         data.angle_y = 2 * math.atan(CAMERA["half_height"])
@@ -273,9 +254,9 @@ def lamp_graph(lamp):
 #: end
 def add_lamps(scene, set_up):
     """One collection each, so that a view layer can leave the others out."""
-    collections_by_name = {}
+    made = {}
     for name, light in LIGHTS.items():
-        collection = collections_by_name[name] = new_collection(scene, f"{NAME} {name}")
+        collection = made[name] = new_collection(scene, f"{NAME} {name}")
         lamp = own(bpy.data.lights.new(short(name), light["type"]))
         ob = new_object(collection, name, lamp)
         #: point
@@ -284,12 +265,12 @@ def add_lamps(scene, set_up):
         #: end
         #: directional
         if light["type"] == "SUN":
-            ob.rotation_euler = Vector(light["to_light"]).to_track_quat("Z", "Y").to_euler()
+            ob.rotation_euler = mathutils.Vector(light["to_light"]).to_track_quat("Z", "Y").to_euler()
             lamp.angle = 0.0
         #: end
         lamp.cycles.cast_shadow = SHADOWS
         set_up(lamp, light)
-    return collections_by_name
+    return made
 
 
 #: end

@@ -53,14 +53,12 @@ def phong_group():
     #: end
     toon = g.add("ShaderNodeBsdfToon", component="DIFFUSE")
     toon.inputs["Size"].default_value, toon.inputs["Smooth"].default_value = 1.0, 0.0
+    light = g.v("SCALE", light, g.f("MULTIPLY", gain, g.f("GREATER_THAN", cosine, 0.0)))
+    g.put(toon.inputs["Color"], light)
+    shader = g.sum(toon.outputs[0], shader)
     #: smooth
-    g.put(toon.inputs["Normal"], normal)  # light may come from below the flat triangle
+    shader = g.sum(shader, light_from_below(g, light, to_light))
     #: end
-    g.put(toon.inputs["Color"], g.v("SCALE", light, g.f("MULTIPLY", gain, g.f("GREATER_THAN", cosine, 0.0))))
-    both = g.add("ShaderNodeAddShader")
-    g.put(both.inputs[0], toon.outputs[0])
-    g.put(both.inputs[1], shader)
-    shader = both.outputs[0]
     #: end
     #: mirror
     glossy = g.add("ShaderNodeBsdfGlossy", distribution="SHARP")
@@ -77,7 +75,41 @@ def phong_group():
     return g.tree
 
 
-def exact_surface(g, fields, hit):
+#: light
+#: smooth
+def light_from_below(g, light, to_light):
+    """For light that comes from below the flat triangle but from above by the interpolated normal. Toon ignores it;
+    Translucent's lobe is the cosine below over pi."""
+    below = g.f("MULTIPLY", g.v("DOT_PRODUCT", g.add("ShaderNodeNewGeometry").outputs["Normal"], to_light), -2.0)
+    share = g.f("DIVIDE", g.f("GREATER_THAN", below, 0.0), g.f("MAXIMUM", below, 1e-7))
+    translucent = g.add("ShaderNodeBsdfTranslucent")
+    g.put(translucent.inputs["Color"], g.v("SCALE", light, share))
+    return translucent.outputs[0]
+
+
+#: end
+#: end
+#: two_sided
+def either_side(g, front, back, side):
+    fields = {}
+    for key, a in front.items():
+        b = back[key]
+        if a == b:
+            fields[key] = a
+        elif key == "shininess":
+            fields[key] = g.f("MULTIPLY_ADD", side, b, g.f("MULTIPLY", g.f("SUBTRACT", 1.0, side), a))
+        else:
+            fields[key] = choose(g, side, a, b)
+    return fields
+
+
+#: end
+def exact_surface(g, sides, hit):
+    fields = sides[0]
+    #: two_sided
+    if len(sides) > 1:
+        fields = either_side(g, *sides, hit["Back"])
+    #: end
     inputs = {key: fields[key.lower()] for key in phong_group().inputs.keys() if key.lower() in fields}
     return g.group(phong_group(), Position=hit["Position"], Normal=hit["Normal"], **inputs)["Shader"]
 

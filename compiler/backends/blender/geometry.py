@@ -49,9 +49,10 @@ def set_normals(mesh, normals):
 #: curved disc
 def apparent_radius(o, center, radius):
     """In pixels; of the whole picture where the camera is inside."""
-    rows = affine(o.get("world", IDENTITY))
-    radius *= np.linalg.norm(rows[:3, :3], 2)
-    distance = np.linalg.norm(rows[:3, :3] @ center + rows[:3, 3] - CAMERA["eye"]) - radius
+    rows = o.get("world", IDENTITY)
+    radius *= max(math.hypot(*column) for column in list(zip(*rows))[:3])
+    center = [sum(m * x for m, x in zip(row, (*center, 1.0))) for row in rows]
+    distance = math.dist(center, CAMERA["eye"]) - radius
     if CAMERA["type"] == "ORTHO":
         distance = 1.0
     return min(1.0, radius / (2 * CAMERA["half_height"] * max(distance, 1e-3 * radius))) * SIZE[1]
@@ -65,7 +66,7 @@ ASPECT = 8.0  # of a triangle; the sliver's length over its width multiplies Cyc
 def segments(o, center, radius):
     """Of a circle that is drawn right to a 250th of a pixel."""
     needed = math.pi * math.sqrt(62.5 * apparent_radius(o, center, radius))
-    return int(np.clip(2 ** math.ceil(math.log2(max(needed, 1))), 128, 1024))
+    return min(max(2 ** math.ceil(math.log2(max(needed, 1))), 128), 1024)
 
 
 def circle(n):
@@ -95,7 +96,7 @@ def band(n, rows):
 def sphere_divisions(o):
     """So many that the outline is right to a 250th of a pixel, within reason."""
     needed = math.log(0.12 * 250 * apparent_radius(o, o["center"], o["radius"]), 4)
-    return int(np.clip(math.ceil(needed), 4, 7))
+    return min(max(math.ceil(needed), 3), 7)
 
 
 def sphere_mesh(o):
@@ -237,10 +238,10 @@ def plane_mesh(o):
 def place(ob, rows, parent):
     """Location and scale where these are enough. A general matrix goes through the inverse of a parent's, since
     an object of its own has no place for shear."""
-    linear = Matrix(rows).to_3x3()
+    linear = mathutils.Matrix(rows).to_3x3()
     if all(linear[i][j] == 0 for i in range(3) for j in range(3) if i != j):
         ob.location, ob.scale = [row[3] for row in rows], [rows[i][i] for i in range(3)]
     else:
-        ob.parent, ob.matrix_parent_inverse = parent(), Matrix((*rows, (0, 0, 0, 1)))
+        ob.parent, ob.matrix_parent_inverse = parent(), mathutils.Matrix((*rows, (0, 0, 0, 1)))
 
 

@@ -1,13 +1,13 @@
 # ---------------------------------------------------------------- command line
 def size(text):
     width, separator, height = text.partition("x")
-    if not (separator and width.isdigit() and height.isdigit() and 4 <= int(width) and 4 <= int(height)):
-        raise argparse.ArgumentTypeError(f"{text!r} is not WIDTHxHEIGHT with at least 4 x 4 pixels")
+    if not (separator and all(n.isdecimal() and 4 <= int(n) <= 65536 for n in (width, height))):
+        raise argparse.ArgumentTypeError(f"{text!r} is not WIDTHxHEIGHT with 4 to 65536 pixels each")
     return int(width), int(height)
 
 
 def positive(text):
-    if not (text.isdigit() and int(text) > 0):
+    if not (text.isdecimal() and int(text) > 0):
         raise argparse.ArgumentTypeError(f"{text!r} is not a whole number greater than 0")
     return int(text)
 
@@ -15,6 +15,9 @@ def positive(text):
 def picture(text):
     if not text.lower().endswith(".exr"):
         raise argparse.ArgumentTypeError(f"{text!r} does not end in .exr; the picture is linear 32-bit OpenEXR")
+    folder = os.path.dirname(os.path.abspath(text))
+    if not os.path.isdir(folder):
+        raise argparse.ArgumentTypeError(f"{folder!r} is not a folder")
     return os.path.abspath(text)
 
 
@@ -34,8 +37,6 @@ def arguments():
 def render_to(scene, path):
     """Under a temporary name first, so that an interrupted run leaves no half of a picture."""
     folder, name = os.path.split(path)
-    if not os.path.isdir(folder):
-        raise OSError(f"{folder} is not a folder")
     temporary = os.path.join(folder, f".{name}.{os.getpid()}.exr")
     scene.render.filepath, scene.render.use_file_extension = temporary, False
     try:

@@ -59,6 +59,14 @@ class Graph:
             self.put(socket, value)
         return node.outputs[0]
 
+    #: light
+    def sum(self, first, second):
+        node = self.add("ShaderNodeAddShader")
+        self.put(node.inputs[0], first)
+        self.put(node.inputs[1], second)
+        return node.outputs[0]
+
+    #: end
     def attribute(self, kind, name, output="Vector"):
         return self.add("ShaderNodeAttribute", attribute_type=kind, attribute_name=name).outputs[output]
 

@@ -1,0 +1,231 @@
+#include "compiler/backends/blender.h"
+#include "compiler/backends/render.h"
+#include "compiler/test/folder.h"
+#include "compiler/test/support.h"
+#include "runtime/host/image_file.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+/// The emitted scripts in Blender.
+namespace scc::compiler {
+namespace {
+
+namespace fs = std::filesystem;
+using runtime::Image;
+using test::run;
+
+class BlenderRender : public testing::Test {
+protected:
+    void SetUp() override {
+        if (!test::has_program("blender")) {
+            GTEST_SKIP() << "blender is not installed";
+        }
+    }
+
+    ir::Scene scene_of(const std::string& text) {
+        test::Compiled c = test::compile(text + "\nrender { size = (64, 48) }\n");
+        EXPECT_TRUE(c.fine) << c.messages;
+        run_passes(c.scene);
+        return c.scene;
+    }
+
+    int blender(const ir::Scene& scene, const std::string& options) {
+        Ledger ledger;
+        test::save(folder_ / "scene.py", emit_blender(scene, ledger));
+        return run("blender -b --factory-startup --python-exit-code 1 -P " + (folder_ / "scene.py").string() +
+                   " -- " + options);
+    }
+    std::string picture() const { return (folder_ / "out.exr").string(); }
+
+    Image drawn(const ir::Scene& scene, const std::string& options = "") {
+        EXPECT_EQ(blender(scene, "--render " + picture() + " " + options), 0);
+        return host::read_image(picture());
+    }
+
+    /// How many pixels differ by more than 1e-3 from our own picture; all others must agree to 1e-4.
+    int differing_pixels(const ir::Scene& scene) {
+        const Image theirs = drawn(scene);
+        Image ours(theirs.width, theirs.height);
+        runtime::RenderRequest request;
+        request.settings = scene.settings;
+        request.settings.samples_per_axis = 1;
+        request.crop = {0, 0, ours.width, ours.height};
+        make_drawable(scene, Precision::full).render(request, ours);
+        int count = 0;
+        for (int y = 0; y < ours.height; ++y) {
+            for (int x = 0; x < ours.width; ++x) {
+                float difference = 0;
+                for (int c = 0; c < 3; ++c) {
+                    difference = std::max(difference, std::abs(ours.at(x, y)[c] - theirs.at(x, y)[c]));
+                }
+                if (difference > 1e-3F) {
+                    ++count;
+                } else {
+                    EXPECT_LT(difference, 1e-4F) << "at " << x << ", " << y;
+                }
+            }
+        }
+        return count;
+    }
+
+    test::Folder folder_;
+};
+
+TEST_F(BlenderRender, FollowsTheLecturesFormula) {
+    const Image image = drawn(scene_of(R"(
+world { ambient = rgb(0.2, 0.3, 0.4) }
+orthographic_camera { eye = (0, 0, 5), target = (0, 0, 0), height = 3 }
+point_light { position = (0.5, 0.3, 2), color = rgb(1, 0.8, 0.6), attenuation = (0.5, 0.2, 0.1) }
+plane {
+  normal = (0, 0, 1)
+  material = phong { diffuse = rgb(0.5, 0.25, 0.1), ambient = rgb(0.3, 0.2, 0.1), specular = rgb(0.4, 0.4, 0.9),
+                     shininess = 8, emission = rgb(0, 0.1, 0) }
+})"));
+    ASSERT_EQ(image.width, 64);
+    ASSERT_EQ(image.height, 48);
+    for (const auto& [column, row] : {std::pair{0, 0}, {63, 0}, {31, 23}, {42, 19}, {10, 40}}) {
+        const double x = (column + 0.5 - 32) / 16, y = (24 - row - 0.5) / 16;
+        const double sx = 0.5 - x, sy = 0.3 - y, d = std::sqrt(sx * sx + sy * sy + 4);
+        const double cosine = 2 / d;
+        const double hx = sx / d, hy = sy / d, hz = cosine + 1;
+        const double lobe = std::pow(hz / std::sqrt(hx * hx + hy * hy + hz * hz), 8);
+        const double fade = 0.5 + 0.2 * d + 0.1 * d * d;
+        const std::array expected{0.2 * 0.3 + 0.0 + 1.0 * (0.5 * cosine + 0.4 * lobe) / fade,
+                                  0.3 * 0.2 + 0.1 + 0.8 * (0.25 * cosine + 0.4 * lobe) / fade,
+                                  0.4 * 0.1 + 0.0 + 0.6 * (0.1 * cosine + 0.9 * lobe) / fade};
+        for (std::size_t c = 0; c < 3; ++c) {
+            EXPECT_NEAR(image.at(column, row)[c], expected[c], 2e-6) << column << ", " << row;
+        }
+    }
+}
+
+TEST_F(BlenderRender, MirrorsAddWhatTheySeeAndLightsLeaveShadows) {
+    // Straight down onto a mirror that sees the sky, and onto a disc's shadow.
+    const Image image = drawn(scene_of(R"(
+world { ambient = rgb(0, 0, 0), background = rgb(2, 4, 8) }
+orthographic_camera { eye = (0, 5, 0), target = (0, 0, 0), up = (0, 0, -1), height = 4.8 }
+directional_light { direction = (1, -1, 0), color = rgb(1, 1, 1) }
+plane { material = phong { diffuse = rgb(0.5, 0.5, 0.5), ambient = rgb(0, 0, 0), reflect = rgb(0.5, 0.25, 0.125) } }
+disc { center = (-2, 2, 0), radius = 0.8, material = phong { diffuse = rgb(0, 0, 0) } })"));
+    const double lit = 0.5 / std::sqrt(2.0);
+    EXPECT_NEAR(image.at(31, 23)[0], 1, 1e-6) << "in the shadow: the sky alone";
+    EXPECT_NEAR(image.at(60, 23)[0], 1 + lit, 1e-6);
+    EXPECT_NEAR(image.at(60, 23)[1], 1 + lit, 1e-6);
+    EXPECT_NEAR(image.at(60, 23)[2], 1 + lit, 1e-6);
+    EXPECT_NEAR(image.at(12, 23)[0], 0, 1e-6) << "the disc hides the plane";
+}
+
+TEST_F(BlenderRender, DrawsTheLectureSceneAsWeDo) {
+    EXPECT_LE(differing_pixels(scene_of(R"(
+world { ambient = rgb(0.2, 0.2, 0.2), background = #202830 }
+perspective_camera { eye = (4, 3, 6), target = (0, 0.5, 0), fov_y = 40deg }
+point_light { position = (4, 6, 3), attenuation = (1, 0.05, 0.01) }
+directional_light { direction = (-1, -2, -1), color = rgb(0.3, 0.3, 0.35) }
+let red = phong { diffuse = rgb(0.7, 0.1, 0.1), specular = rgb(0.6, 0.6, 0.6), shininess = 40 }
+let mirror = phong { diffuse = rgb(0.05, 0.05, 0.05), reflect = rgb(0.8, 0.8, 0.8) }
+fn checker(s: surface) -> color =
+  if ((floor(s.p.x) + floor(s.p.z)) % 2 == 0) rgb(0.8, 0.8, 0.8) else rgb(0.1, 0.1, 0.1)
+sphere { material = red, transform = scale(1, 0.7, 1) then translate(0, 0.7, 0) }
+cylinder { from = (2, 0, 0), to = (2, 1.6, 0), radius = 0.4, caps = false,
+           material = two_sided { front = mirror, back = phong { diffuse = rgb(0.1, 0.2, 0.6) } } }
+plane { material = phong { diffuse = checker } })")),
+              3);
+}
+
+TEST_F(BlenderRender, DrawsEveryShapeUnderShearAndMirroringAsWeDo) {
+    EXPECT_LE(differing_pixels(scene_of(R"(
+perspective_camera { eye = (1, 4, 9), target = (0, 0.4, 0), fov_y = 40deg, shift = (0.05, -0.03) }
+directional_light { towards = (2, 4, 3), color = rgb(0.8, 0.8, 0.75) }
+point_light { position = (-4, 5, 6), color = rgb(0.4, 0.5, 0.6), specular = rgb(1, 0, 0) }
+fn stripes(s: surface) -> color = rgb(0.5 + 0.4 * sin(3 * s.p.x), abs(s.n.y), if (s.world.y < 0.9) 0.7 else 0.2)
+fn gloss(s: surface) -> number = 20 + 5 * s.p.y
+let front = phong { diffuse = stripes, specular = rgb(0.4, 0.4, 0.4), shininess = gloss }
+let sides = two_sided { front = front, back = phong { diffuse = rgb(0.1, 0.6, 0.2), reflect = rgb(0.3, 0.3, 0.3) } }
+let mirrored = scale(-1, 1, 1)
+let shear = matrix([1, 0.6, 0, 0,  0, 1, 0, 0,  0, 0.1, 1, 0,  0, 0, 0, 1])
+group {
+  material = sides
+  sphere { center = (0.1, 0.8, 0), radius = 0.8, transform = shear then mirrored then translate(-3, 0, 0) }
+  box { min = (-0.5, 0, -0.5), max = (0.5, 1, 0.5), transform = shear then rotate_y(25deg) then translate(-1, 0, 0) }
+  cylinder { from = (0, 0, 0), to = (0.3, 1.4, 0), radius = 0.4, transform = mirrored then shear then translate(0.6, 0, 0) }
+  cylinder { from = (0, 0, 0), to = (0.3, 1, 0.2), radius = 0.5, caps = false, transform = shear then translate(2, 0, 1) }
+  disc { center = (0, 0.7, 0), normal = (1, 0.3, 1), radius = 0.7, hole = 0.3, transform = mirrored then translate(3.4, 0, 0.4) }
+  triangle { points = [(0, 0, 0), (1.2, 0, 0.2), (0.5, 1.2, 0)], transform = mirrored then translate(-1.6, 0, 1.8) }
+  triangle { points = [(0, 0, 0), (1.2, 0, 0.2), (0.5, 1.2, 0)], normals = [(-0.5, 0, 1), (0.5, 0, 1), (0, 0.6, 1)],
+             transform = mirrored then translate(1.2, 0, 2.6) }
+}
+plane { normal = (0.1, 1, 0), offset = -0.1, material = phong { diffuse = rgb(0.5, 0.5, 0.5) }, transform = shear })")),
+              3);
+}
+
+TEST_F(BlenderRender, DrawsMeshesAsWeDo) {
+    ir::Scene scene = scene_of(R"(
+perspective_camera { eye = (1, 2, 6), target = (0, 0, 0) }
+point_light { position = (-4, 5, 6) }
+box { min = (-3, -1.2, -3), max = (3, -1, 3) })");
+    ir::Mesh mesh;
+    mesh.name = "grid";
+    constexpr std::uint32_t n = 12;
+    for (std::uint32_t i = 0; i < n * n; ++i) {
+        const float x = float(i % n) / 4 - 1.4F, z = float(i / n) / 4 - 1.4F;
+        mesh.positions.insert(mesh.positions.end(), {x, 0.3F * std::sin(3 * x) * std::cos(2 * z), z});
+        const std::array slope{-0.9F * std::cos(3 * x) * std::cos(2 * z), 1.0F,
+                               0.6F * std::sin(3 * x) * std::sin(2 * z)};
+        const float length = std::sqrt(slope[0] * slope[0] + 1 + slope[2] * slope[2]);
+        for (const float c : slope) {
+            mesh.normals.push_back(c / length);
+        }
+        if (i % n < n - 1 && i / n < n - 1) {
+            mesh.indices.insert(mesh.indices.end(), {i, i + n, i + 1, i + 1, i + n, i + n + 1});
+        }
+    }
+    mesh.normal_indices = mesh.indices;
+    scene.meshes.push_back(mesh);
+    scene.objects.push_back({.shape = runtime::Mesh<double>{0},
+                             .world_from_object = {},
+                             .sides = {},
+                             .path = "mesh[1]",
+                             .span = {}});
+    derive_traits(scene);
+    EXPECT_LE(differing_pixels(scene), 3);
+}
+
+TEST_F(BlenderRender, DrawsWithoutLightsFromAmbientAndEmission) {
+    ir::Scene scene = scene_of(R"(
+world { ambient = rgb(0.5, 0.5, 0.5), background = rgb(0, 0, 1) }
+perspective_camera { eye = (0, 0, 4), target = (0, 0, 0) }
+sphere { material = phong { ambient = rgb(0.2, 0.4, 0.6), emission = rgb(0, 3, 0) } })");
+    scene.lights.clear();
+    const Image image = drawn(scene, "--size 32x24");
+    ASSERT_EQ(image.width, 32);
+    EXPECT_NEAR(image.at(16, 12)[0], 0.1, 1e-6);
+    EXPECT_NEAR(image.at(16, 12)[1], 3.2, 1e-6);
+    EXPECT_NEAR(image.at(0, 0)[2], 1, 1e-6);
+}
+
+TEST_F(BlenderRender, HasAnArtistsLook) {
+    const Image image =
+        drawn(scene_of("perspective_camera { }\npoint_light { position = (0, 2, 5) }\n"
+                       "sphere { material = two_sided { front = phong { reflect = rgb(0.2, 0.2, 0.2) }, "
+                       "back = phong { } } }"),
+              "--look artist --samples 4");
+    EXPECT_GT(image.at(32, 24)[0], 0.01F);
+}
+
+TEST_F(BlenderRender, RefusesBadOptionsAndLeavesNoPicture) {
+    const ir::Scene scene = scene_of("perspective_camera { }\npoint_light { }\nsphere { }");
+    EXPECT_EQ(blender(scene, "--render " + picture() + " --size 64"), 2);
+    EXPECT_EQ(blender(scene, "--render " + picture() + " --look shiny"), 2);
+    EXPECT_EQ(blender(scene, "--render " + (folder_ / "absent" / "out.exr").string()), 2);
+    EXPECT_FALSE(fs::exists(picture()));
+    EXPECT_EQ(blender(scene, "--help"), 0);
+    EXPECT_EQ(blender(scene, ""), 0) << "builds only";
+    EXPECT_FALSE(fs::exists(picture()));
+}
+
+} // namespace
+} // namespace scc::compiler
