@@ -12,8 +12,8 @@ namespace scc::lang {
 
 /// Brackets, operators and blocks may nest this deep; deeper is reported and skipped.
 inline constexpr int max_nesting = 128;
-/// A chain of operators makes a tree as high as it is long, so trees are at most this high; brackets around a chain add
-/// to it at most max_nesting.
+/// A chain of operators makes a tree as high as it is long, so trees are at most this high; brackets around a
+/// chain add to it at most max_nesting.
 inline constexpr int max_chain = 512;
 
 /// Recursive descent over the grammar in grammar.md. After a mistake it goes on at the next item, so one run

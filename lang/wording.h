@@ -2,6 +2,8 @@
 
 #include "lang/schema.h"
 
+#include <fmt/core.h>
+
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -17,11 +19,11 @@ inline std::string in_code(std::string_view text) {
 
 /// `; did you mean `x`?`, or nothing.
 inline std::string did_you_mean(std::optional<std::string_view> best) {
-    return best ? "; did you mean " + in_code(*best) + "?" : "";
+    return best ? fmt::format("; did you mean `{}`?", *best) : "";
 }
 
 inline std::string counted(std::size_t count, std::string_view noun) {
-    return std::to_string(count) + " " + std::string(noun) + (count == 1 ? "" : "s");
+    return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
 /// `a, b or c`.
@@ -37,7 +39,7 @@ inline std::string alternatives(const std::vector<std::string>& words) {
 inline std::string choice_rule(const Field& field) {
     std::vector<std::string> words;
     for (std::string_view choice : field.choices) {
-        words.push_back("\"" + std::string(choice) + "\"");
+        words.push_back(fmt::format("\"{}\"", choice));
     }
     return "the choices are " + alternatives(words);
 }

@@ -45,12 +45,26 @@ bool reads_point(const ir::Function& function) {
     return reads_p(function) || function.reads(Input::world_x, Input::world_z);
 }
 
-// From which sides a mirror that leaves a shape can meet the same shape again.
+// Whether the eye is inside a closed shape: from elsewhere its back side is never seen.
+bool encloses(const runtime::Sphere<double>& sphere, const Vec3<double>& eye) {
+    return length(eye - sphere.center) <= sphere.radius;
+}
+bool encloses(const runtime::Box<double>& box, const Vec3<double>& eye) {
+    const Vec3<double> low = eye - box.min, high = box.max - eye;
+    return std::min({low.x, low.y, low.z, high.x, high.y, high.z}) >= 0;
+}
+bool encloses(const runtime::Cylinder<double>& cylinder, const Vec3<double>& eye) {
+    const Vec3<double> axis = cylinder.to - cylinder.from, start = eye - cylinder.from;
+    const double along = dot(start, axis) / dot(axis, axis);
+    return along >= 0 && along <= 1 && length(start - along * axis) <= cylinder.radius;
+}
+
+// From which sides a mirror ray that leaves a shape can meet the same shape again.
 struct MirrorView {
     bool front = false, back = false;
 };
 template <class Shape>
-MirrorView sees_itself(const Shape& shape) {
+MirrorView sees_itself(const Shape& shape, const Vec3<double>& eye) {
     using namespace runtime;
     if constexpr (std::is_same_v<Shape, Mesh<double>>) {
         return {true, true};
@@ -58,8 +72,10 @@ MirrorView sees_itself(const Shape& shape) {
         return {shape.smooth, shape.smooth};
     } else if constexpr (std::is_same_v<Shape, Plane<double>> || std::is_same_v<Shape, Disc<double>>) {
         return {false, false};
+    } else if constexpr (std::is_same_v<Shape, Cylinder<double>>) {
+        return {false, !shape.caps || encloses(shape, eye)};
     } else {
-        return {false, true}; // convex, seen from inside
+        return {false, encloses(shape, eye)};
     }
 }
 
@@ -98,8 +114,9 @@ private:
             return;
         }
         ++count_;
+        const Vec3<double> eye = transform_point(inverse(object.world_from_object), scene_.camera.eye);
         const MirrorView view =
-            std::visit([](const auto& shape) { return sees_itself(shape); }, object.shape);
+            std::visit([&](const auto& shape) { return sees_itself(shape, eye); }, object.shape);
         sees_itself_ |= (front && view.front) || (back && view.back);
         strongest_ = std::max({strongest_, strength(object.sides.front), strength(object.sides.back)});
     }

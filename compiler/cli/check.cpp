@@ -34,6 +34,9 @@ const char* name_of(lang::Severity severity) {
 }
 
 Json place(const lang::SourceSet& sources, lang::Span span) {
+    if (!sources.contains(span.file)) {
+        return nullptr;
+    }
     const lang::SourceFile& file = sources.file(span.file);
     const lang::Position begin = file.position(span.begin);
     const lang::Position end = file.position(span.end);

@@ -37,7 +37,7 @@ const char* name_of(compiler::Fidelity fidelity) {
 }
 
 std::string place(const lang::SourceSet& sources, lang::Span span) {
-    if (span.begin == span.end) { // made by scc: a default camera, a headlight
+    if (!sources.contains(span.file)) { // made by scc: a default camera, a headlight
         return "";
     }
     const lang::SourceFile& file = sources.file(span.file);

@@ -20,9 +20,9 @@ struct CircleRoots {
 /// ray along the cylinder's axis): not real.
 template <class L>
 constexpr CircleRoots<L> intersect_circle(const Vec3<L>& org, const Vec3<L>& dir, const L& r) {
-    const L a = dot(dir, dir);
+    const L a = dot(dir, dir), inverse = 1 / a;
     const L b = -dot(org, dir);
-    const Vec3<L> nearest = org + (b / a) * dir;
+    const Vec3<L> nearest = org + (b * inverse) * dir;
     const L squared_radius = r * r;
     const L discriminant = squared_radius - dot(nearest, nearest);
     const L excess = dot(org, org) - squared_radius;
@@ -32,7 +32,7 @@ constexpr CircleRoots<L> intersect_circle(const Vec3<L>& org, const Vec3<L>& dir
     }
     const L root = square_root(maximum(L(0), a * discriminant));
     const L q = b + choose(b < 0, -root, root);
-    const L t0 = q / a;
+    const L t0 = q * inverse;
     const L t1 = excess / q; // NaN where q = 0: touching, at t0 = 0
     result.near = minimum(t0, t1);
     result.far = maximum(t0, t1);

@@ -77,7 +77,7 @@ struct Crowd {
     template <class Shape>
     static void randomize_near(Shape& shape, Random<R>& random, double distance) {
         if constexpr (requires { shape.offset; }) {
-            shape = {random.direction(), -7};
+            shape = {random.direction(), -60};
         } else if constexpr (!is_mesh<Shape>) {
             randomize(shape, random, distance);
         }
@@ -98,7 +98,7 @@ struct Crowd {
         scene.materials[3].diffuse.function = 0;
         scene.materials[2].shininess.function = 1;
         scene.functions.push_back(
-            {{{Opcode::world_x}, {Opcode::sin, {0}}, {Opcode::n_y}, {Opcode::abs, {2}}}, {3, 3, 1}});
+            {{{Opcode::world_x}, {Opcode::sin, {0}}, {Opcode::abs, {1}}, {Opcode::n_y}, {Opcode::abs, {3}}}, {2, 4, 2}});
         scene.functions.push_back(
             {{{Opcode::p_z}, {Opcode::constant, {}, R(5)}, {Opcode::pow, {1, 0}}}, {2}});
     }
@@ -113,7 +113,7 @@ struct Restricted : DynamicScene<R> {
 
 template <class T>
 class Rendering : public testing::Test {};
-using Reals = testing::Types<float, double, long double>;
+using Reals = testing::Types<float, double>;
 TYPED_TEST_SUITE(Rendering, Reals);
 
 TYPED_TEST(Rendering, CompiledSceneDrawsTheGenericImage) {
@@ -193,6 +193,12 @@ TYPED_TEST(Rendering, ThreadsAndCropsDoNotChangeThePixels) {
     for (int y = 0; y < cropped.height; ++y) {
         EXPECT_EQ(std::memcmp(cropped.at(0, y), whole.at(53, 31 + y), sizeof(float) * 3 * 137), 0) << y;
     }
+}
+
+TEST(Render, CompiledSceneDrawsTheGenericImageInTheReferencePrecision) {
+    const RenderRequest wanted = request(61, 43);
+    EXPECT_TRUE(same_bits(draw(LectureScene<long double>{}, wanted),
+                          draw(generic_lecture_scene<long double>(), wanted)));
 }
 
 TEST(Render, SamplesAreTheCentresOfSubPixelsWithABoxFilter) {

@@ -185,7 +185,7 @@ def triangle_mesh(o):
     mesh = new_mesh(o["name"], o["points"], ((0, 1, 2),))
     #: smooth
     if "normals" in o:
-        set_normals(mesh, o["normals"])
+        set_normals(mesh, [unit(normal) for normal in o["normals"]])
     #: end
     return mesh
 

@@ -1,0 +1,249 @@
+#include "compiler/backends/pov.h"
+#include "compiler/backends/render.h"
+#include "compiler/test/folder.h"
+#include "compiler/test/support.h"
+#include "runtime/host/image_file.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+/// The emitted SDL in POV-Ray.
+namespace scc::compiler {
+namespace {
+
+using runtime::Image;
+
+class PovRender : public testing::Test {
+protected:
+    void SetUp() override {
+        if (!test::has_program("povray")) {
+            GTEST_SKIP() << "povray is not installed";
+        }
+    }
+
+    static ir::Scene scene_of(const std::string& text) {
+        test::Compiled c = test::compile(text);
+        EXPECT_TRUE(c.fine) << c.messages;
+        c.scene.settings.width = 96;
+        c.scene.settings.height = 72;
+        run_passes(c.scene);
+        return c.scene;
+    }
+
+    /// With the exposure that keeps the brightest pixel below 1, undone afterwards.
+    Image theirs(const ir::Scene& scene, double exposure) {
+        Ledger ledger;
+        test::save(folder_ / "scene.pov", emit_pov(scene, ledger));
+        const std::string picture = (folder_ / "scene.png").string();
+        const std::string command =
+            "povray +I" + (folder_ / "scene.pov").string() + " +O" + picture + " +W" +
+            std::to_string(scene.settings.width) + " +H" + std::to_string(scene.settings.height) +
+            " +FN16 File_Gamma=1.0 -A -D +WT1 Declare=scc_exposure=" + std::to_string(exposure);
+        EXPECT_EQ(test::run(command), 0) << command;
+        return host::read_image(picture, true);
+    }
+
+    static Image ours(const ir::Scene& scene) {
+        Image image(scene.settings.width, scene.settings.height);
+        runtime::RenderRequest request;
+        request.settings = scene.settings;
+        request.settings.samples_per_axis = 1;
+        request.crop = {0, 0, image.width, image.height};
+        make_drawable(scene, Precision::full).render(request, image);
+        return image;
+    }
+
+    /// Half a step of the 16-bit file and POV-Ray's own float colours, times the exposure; nothing for edges.
+    void expect_same_picture(const std::string& text, int outliers = 0) {
+        const ir::Scene scene = scene_of(text);
+        const Image expected = ours(scene);
+        const float peak = *std::max_element(expected.pixels.begin(), expected.pixels.end());
+        ASSERT_GT(peak, 0.1F) << "nothing to be seen";
+        const double exposure = std::min(1.0, std::exp2(std::floor(-std::log2(double{peak}))));
+        const Image found = theirs(scene, exposure);
+        ASSERT_EQ(found.width, expected.width);
+        ASSERT_EQ(found.height, expected.height);
+        int differing = 0;
+        double worst = 0;
+        for (int y = 0; y < found.height; ++y) {
+            for (int x = 0; x < found.width; ++x) {
+                double difference = 0;
+                for (int c = 0; c < 3; ++c) {
+                    difference = std::max(
+                        difference, std::abs(found.at(x, y)[c] / exposure - double{expected.at(x, y)[c]}));
+                }
+                differing += difference * exposure > 2e-5 ? 1 : 0;
+                worst = std::max(worst, difference);
+            }
+        }
+        EXPECT_LE(differing, outliers) << "worst " << worst;
+    }
+
+    test::Folder folder_;
+};
+
+const std::string room = R"(
+world { ambient = rgb(0.2, 0.25, 0.3), background = rgb(0.1, 0.15, 0.2) }
+plane { material = phong { diffuse = rgb(0.4, 0.5, 0.6) } }
+)";
+const std::string camera = "perspective_camera { eye = (3, 4, 7), target = (0, 0.5, 0), fov_y = 45deg }\n";
+const std::string lamp = "point_light { position = (3, 6, 4), color = rgb(0.8, 0.7, 0.6) }\n";
+
+/// Every shape with its own material on either side, in a row, under a transform.
+std::string shapes_under(const std::string& transform) {
+    const std::string sides = R"(
+let front = phong { diffuse = rgb(0.7, 0.3, 0.2), specular = rgb(0.3, 0.1, 0.2), shininess = 20 }
+let back = phong { diffuse = rgb(0.2, 0.3, 0.8), specular = rgb(0.2, 0.2, 0.2) }
+let sides = two_sided { front = front, back = back }
+)";
+    std::string text = room + camera + lamp + sides;
+    const auto put = [&](const std::string& shape, const std::string& place) {
+        text += shape + ", material = sides, transform = " + transform + " then translate" + place + " }\n";
+    };
+    put("sphere { center = (0.1, 0, 0), radius = 0.6", "(-2.5, 0.8, 0)");
+    put("box { min = (-0.4, -0.5, -0.3), max = (0.5, 0.4, 0.6)", "(-1.2, 0.8, 0)");
+    put("cylinder { from = (0, -0.5, 0), to = (0.2, 0.5, 0), radius = 0.4", "(0, 0.8, 0)");
+    put("cylinder { from = (0, -0.5, 0), to = (0.2, 0.5, 0), radius = 0.4, caps = false", "(1.2, 0.8, 0)");
+    put("disc { normal = (0.3, 0.4, 1), radius = 0.6, hole = 0.2", "(2.4, 0.8, 0)");
+    put("triangle { points = [(-0.5, -0.4, 0), (0.6, -0.3, 0.1), (0, 0.6, 0)]", "(-1, 0.8, 2)");
+    put("triangle { points = [(-0.5, -0.4, 0), (0, 0.6, 0), (0.6, -0.3, 0.1)]", "(1, 0.8, 2)");
+    return text;
+}
+
+TEST_F(PovRender, DrawsEveryShape) {
+    expect_same_picture(shapes_under("scale(1)"));
+}
+
+TEST_F(PovRender, DrawsRotatedAndStretchedShapes) {
+    expect_same_picture(shapes_under("scale(1.2, 0.7, 0.9) then rotate((1, 2, 3), 40deg)"));
+}
+
+TEST_F(PovRender, DrawsShearedMirrorImages) {
+    expect_same_picture(shapes_under("matrix([-1, 0.3, 0, 0, 0, 0.8, 0.2, 0, 0.1, 0, 1, 0, 0, 0, 0, 1])"));
+}
+
+TEST_F(PovRender, InterpolatesNormals) {
+    const std::string smooth = R"(
+let m = phong { diffuse = rgb(0.6, 0.6, 0.5), specular = rgb(0.5, 0.5, 0.5), shininess = 15 }
+let stretched = scale(1.5, 1, 0.7) then rotate_x(-20deg) then translate(0, 1, 0)
+triangle { points = [(-1, -0.5, 0), (1, -0.5, 0), (0, 1, 0)], normals = [(-0.4, 0, 1), (0.4, 0.1, 2), (0, 0.5, 1)], material = m, transform = stretched }
+triangle { points = [(1, -0.5, 0), (2, 1, 0), (0, 1, 0)], normals = [(-0.3, 0, 1), (0.4, 0.1, 1), (1, 0.5, -0.1)], material = m, transform = stretched }
+)";
+    expect_same_picture(room + camera + lamp + smooth, 1);
+}
+
+TEST_F(PovRender, DrawsLayeredMaterials) {
+    std::string text = room + camera + lamp;
+    const char* materials[] = {
+        "diffuse = rgb(0.6, 0.3, 0.2), specular = rgb(0.3, 0.3, 0.3)",
+        "diffuse = rgb(0.6, 0.3, 0), specular = rgb(0.3, 0, 0.1), ambient = rgb(0.5, 0.5, 0.5)",
+        "diffuse = rgb(0.5, 0, 0.5), specular = rgb(0.1, 0.2, 0.1), shininess = 80, ambient = rgb(1, 1, 1), "
+        "emission = "
+        "rgb(0.1, 0.2, 0.3), reflect = rgb(0.2, 0.3, 0.4)",
+        "diffuse = rgb(0, 0, 0), ambient = rgb(0, 0, 0), specular = rgb(0.4, 0.2, 0.1), shininess = 5",
+        "diffuse = rgb(0, 0, 0), ambient = rgb(0, 0, 0), reflect = rgb(0.9, 0.5, 0.3)",
+        "diffuse = rgb(0.6, 0.3, 0.2), ambient = rgb(0.1, 0.5, 0.2), emission = rgb(0.3, 0, 0)"};
+    for (int i = 0; i < 6; ++i) {
+        text += "sphere { center = (" + std::to_string(1.3 * i - 3.2) +
+                ", 0.6, 0), radius = 0.6, material = phong { " + materials[i] + " } }\n";
+    }
+    expect_same_picture(text);
+}
+
+TEST_F(PovRender, EndsMirrorsAtTheDepth) {
+    for (const char* depth : {"0", "1", "3"}) {
+        expect_same_picture(room + camera + lamp + "render { method = ray { depth = " + depth + R"( } }
+let mirror = phong { diffuse = rgb(0.1, 0.1, 0.1), reflect = rgb(0.8, 0.7, 0.9) }
+sphere { center = (-1, 1, 0), radius = 1, material = mirror }
+box { min = (0.5, 0, -1), max = (2, 2, 1), material = mirror }
+)",
+                            1);
+    }
+}
+
+TEST_F(PovRender, FadesLights) {
+    for (const char* law :
+         {"(2, 0, 0)", "(1, 0, 0.05)", "(1, 0.5, 0)", "(0, 0, 0.1)", "(0, 0.3, 0)", "(0, 0.3, 0.1)",
+          "(1, 1, 0.1)", "(1, 1, 0.25)", "(1, 0.05, 0.01)", "(1, 0.3, 0.08)"}) {
+        SCOPED_TRACE(law);
+        expect_same_picture(room + camera +
+                            "sphere { center = (0, 1, 0) }\npoint_light { position = (2, 4, 3), color = "
+                            "rgb(3, 2, 2), attenuation = " +
+                            std::string(law) + " }\n");
+    }
+}
+
+TEST_F(PovRender, GivesHighlightsTheirOwnColor) {
+    for (const char* shadows : {"true", "false"}) {
+        expect_same_picture(room + camera + "render { method = ray { shadows = " + shadows + R"( } }
+let shiny = phong { diffuse = rgb(0.5, 0.4, 0.3), specular = rgb(0.5, 0.6, 0.4), shininess = 10 }
+point_light { position = (3, 6, 4), color = rgb(0.6, 0.5, 0.4), specular = rgb(0.1, 0.9, 0.3), attenuation = (1, 0.1, 0) }
+directional_light { towards = (-1, 2, 1), color = rgb(0.2, 0.2, 0.2), specular = rgb(0.4, 0, 0) }
+sphere { center = (-1, 1, 0), material = shiny }
+box { min = (0.5, 0, -1), max = (2, 1.2, 1), material = shiny }
+)");
+    }
+}
+
+TEST_F(PovRender, CalculatesPerPointFunctions) {
+    expect_same_picture(room + camera + lamp + R"(
+fn checker(s: surface) -> color = if ((floor(s.p.x + 0.3) + floor(s.p.y * 2) + floor(s.p.z)) % 2 == 0) rgb(0.8, 0.2, 0.1) else rgb(0.1, 0.3, 0.9)
+fn waves(s: surface) -> color = rgb(0.5 + 0.4 * sin(9 * s.world.x), 0.3, 0.5 + 0.5 * cos(5 * s.world.y))
+fn both(s: surface) -> color = mix(rgb(0.1, 0.2, 0.3), rgb(0.9, 0.5, 0.2), (s.p.x + 3 * s.world.z) % 1)
+fn gloss(s: surface) -> number = if (s.p.y > 0.1) 60 else 4
+fn polish(s: surface) -> number = 30 + 20 * sin(3 * s.p.y)
+let turned = rotate((1, 2, 3), 40deg)
+sphere { radius = 0.8, material = phong { diffuse = checker, specular = waves }, transform = turned then translate(-2, 0.8, 0) }
+box { min = (-0.6, -0.6, -0.6), max = (0.6, 0.6, 0.6), material = phong { diffuse = waves }, transform = turned then translate(0, 0.9, 0) }
+sphere { radius = 0.6, material = phong { diffuse = both, reflect = both }, transform = turned then translate(1.7, 0.7, 0) }
+triangle { points = [(-0.5, -0.4, 0), (0.6, -0.3, 0.1), (0, 0.6, 0)], material = phong { diffuse = checker }, transform = turned then translate(0, 0.8, 2) }
+sphere { radius = 0.4, material = phong { specular = rgb(0.5, 0.5, 0.5), shininess = gloss }, transform = translate(1.4, 0.5, 2) }
+sphere { radius = 0.4, material = phong { specular = rgb(0.5, 0.5, 0.5), shininess = polish }, transform = translate(-1.4, 0.5, 2) }
+)",
+                        1);
+}
+
+TEST_F(PovRender, KeepsTinyHugeAndDistantScenes) {
+    const auto scene = [](const std::string& size, const std::string& at) {
+        return "world { ambient = rgb(0.2, 0.2, 0.2) }\nlet k = " + size + "\nlet o = " + at + R"(
+perspective_camera { eye = o + k * (3, 3, 6), target = o + k * (0, 0.5, 0) }
+point_light { position = o + k * (3, 6, 4), color = rgb(2, 2, 2), attenuation = (1, 0.3 / k, 0.08 / (k * k)) }
+fn checker(s: surface) -> color = if ((floor((s.world.x - o.x) / k + 0.3) + floor((s.world.z - o.z) / k)) % 2 == 0) rgb(0.8, 0.2, 0.1) else rgb(0.1, 0.3, 0.9)
+group {
+    transform = scale(k) then translate(o)
+    box { min = (-9, -1, -9), max = (9, 0, 9), material = phong { diffuse = checker } }
+    sphere { center = (-1, 1, 0), material = phong { diffuse = rgb(0.6, 0.5, 0.4), specular = rgb(0.3, 0.3, 0.3) } }
+    disc { center = (1, 1, 0), normal = (1, 0, 1), material = phong { diffuse = rgb(0.6, 0.5, 0.4) } }
+    triangle { points = [(0, 0.5, 2), (1, 0.5, 2), (0.5, 1, 2)], material = phong { diffuse = rgb(0.2, 0.5, 0.4) } }
+}
+)";
+    };
+    expect_same_picture(scene("0.00001", "(0, 0, 0)"), 1);
+    expect_same_picture(scene("1000000", "(0, 0, 0)"), 1);
+    expect_same_picture(scene("1", "(1000000, 2000000, -3000000)"), 1);
+}
+
+TEST_F(PovRender, ShiftsTheWindow) {
+    const std::string ball = room + lamp + "sphere { center = (0, 1, 0) }\n";
+    expect_same_picture(ball +
+                        "perspective_camera { eye = (3, 4, 7), target = (0, 0.5, 0), shift = (0.2, -0.1) }");
+    expect_same_picture(
+        ball +
+        "orthographic_camera { eye = (3, 4, 7), target = (0, 0.5, 0), height = 6, shift = (0.2, 0.1) }");
+}
+
+TEST_F(PovRender, AcceptsNamesThatAreCode) {
+    test::Compiled c = test::compile(room + camera + lamp + "box { }\n");
+    ASSERT_TRUE(c.fine) << c.messages;
+    run_passes(c.scene);
+    const std::string bad = "x\" } #error \"out\" */ /* \\\n#error \"out\"\r sphere";
+    c.scene.name = c.scene.objects[0].path = c.scene.materials[0].name = c.scene.lights[0].name = bad;
+    c.scene.settings.width = 8;
+    c.scene.settings.height = 6;
+    theirs(c.scene, 1);
+}
+
+} // namespace
+} // namespace scc::compiler
