@@ -3,6 +3,7 @@
 #include "compiler/lower_material.h"
 #include "compiler/lower_view.h"
 #include "compiler/mesh_file.h"
+#include "compiler/shape_rules.h"
 #include "compiler/values.h"
 #include "lang/schema.h"
 
@@ -100,11 +101,9 @@ std::optional<ir::Shape> ObjectLowering::described_shape(const Thing& thing) {
     if (!complete) {
         return std::nullopt;
     }
-    if constexpr (requires { shape.problem(); }) {
-        if (const std::string_view problem = shape.problem(); !problem.empty()) {
-            diagnostics_.report(Diag::impossible_shape, thing.span, problem);
-            return std::nullopt;
-        }
+    if (const std::string_view wrong = problem(shape); !wrong.empty()) {
+        diagnostics_.report(Diag::impossible_shape, thing.span, wrong);
+        return std::nullopt;
     }
     return ir::Shape{shape};
 }

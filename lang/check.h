@@ -57,7 +57,8 @@ Module check(std::shared_ptr<const ast::File> file, const Schema& schema,
 
 /// Runs a per-point function on an unknown surface and hands every operation to the builder. Returns one
 /// scalar for a number, three for a colour or vector; constant where the function does not depend on the
-/// surface. What a per-point function may not do (recursion, shapes, unknown loop bounds) is reported.
+/// surface. What a per-point function may not do (recursion, shapes, unknown loop bounds) is reported, and
+/// the result is empty.
 std::vector<Scalar> trace(const ClosurePtr& function, SymbolBuilder& builder, Diagnostics& diagnostics);
 
 /// The name of the `fn` or `let` that a function value came from; empty for a lambda.

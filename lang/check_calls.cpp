@@ -135,6 +135,7 @@ Typed Checker::function_call(const ast::Call& node, Binding& binding, Span span,
         if (given[at]) {
             diagnostics_.report(Diag::duplicate_argument, argument.value->span, formals[at].name.text)
                 .note(given[at]->span, "the first value is here");
+            understood = false;
             continue;
         }
         given[at] = argument.value.get();
@@ -240,7 +241,8 @@ void Checker::no_overload(const ast::Call& node, const Builtin& builtin, const s
             of_this_length.push_back(&overload);
         }
     }
-    const bool one_length = std::equal(lengths.begin() + 1, lengths.end(), lengths.begin());
+    const bool one_length = std::all_of(lengths.begin(), lengths.end(),
+                                        [&](std::size_t length) { return length == lengths.front(); });
     if (of_this_length.size() == 1) {
         for (std::size_t i = 0; i < values.size(); ++i) {
             expect(in_code(builtin.name), of_this_length[0]->parameters[i], values[i].type,

@@ -28,7 +28,8 @@ public:
         failed_ = failed_ || row(kind).severity == Severity::error;
     }
 
-    /// `value` is read when something is reported, and outlives the loop; it is ErrorValue before the first round.
+    /// `value` is read when something is reported, and outlives the loop; it is ErrorValue before the first
+    /// round.
     void enter_loop(Span span, std::string_view variable, const Value* value) {
         loops_.push_back({span, variable, value});
     }

@@ -26,23 +26,28 @@ std::string scalar_text(const Scalar& scalar) {
 
 template <std::size_t N>
 std::string tuple_text(const std::array<Scalar, N>& v) {
-    std::string text = "(" + scalar_text(v[0]);
-    for (std::size_t i = 1; i < N; ++i) {
-        text += ", " + scalar_text(v[i]);
+    std::string text;
+    for (const Scalar& component : v) {
+        text += (text.empty() ? "(" : ", ") + scalar_text(component);
     }
     return text + ")";
 }
 
-/// In degrees if they read back as the same radians, which they do for what an author wrote in degrees.
+/// In degrees or radians, whichever is shorter of what reads back as the same angle.
 std::string angle_text(const Scalar& angle) {
     if (!angle.is_constant()) {
         return "unknown";
     }
-    const std::string degrees = fmt::format("{:.15g}", angle.value * 180 / std::numbers::pi);
-    if (std::strtod(degrees.c_str(), nullptr) * std::numbers::pi / 180 == angle.value) {
-        return number_text(std::strtod(degrees.c_str(), nullptr)) + "deg";
+    const std::string radians = number_text(angle.value) + "rad";
+    for (int digits = 15; digits <= 17; ++digits) {
+        const std::string text = fmt::format("{:.{}g}", angle.value * 180 / std::numbers::pi, digits);
+        const double degrees = std::strtod(text.c_str(), nullptr);
+        const std::string written = number_text(degrees) + "deg";
+        if (degrees * std::numbers::pi / 180 == angle.value && written.size() <= radians.size()) {
+            return written;
+        }
     }
-    return number_text(angle.value) + "rad";
+    return radians;
 }
 
 std::string quoted(const std::string& text) {

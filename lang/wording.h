@@ -14,7 +14,7 @@
 namespace scc::lang {
 
 inline std::string in_code(std::string_view text) {
-    return "`" + std::string(text) + "`";
+    return fmt::format("`{}`", text);
 }
 
 /// `; did you mean `x`?`, or nothing.
@@ -35,7 +35,7 @@ inline std::string alternatives(const std::vector<std::string>& words) {
     return text;
 }
 
-/// `one of "a", "b"` for a field with choices.
+/// `the choices are "a" or "b"`, for a field that has some.
 inline std::string choice_rule(const Field& field) {
     std::vector<std::string> words;
     for (std::string_view choice : field.choices) {

@@ -103,7 +103,7 @@ private:
         default:
             break;
         }
-        assert(!"every operator without a Math node is composed above");
+        assert(false && "every operator without a Math node is composed above");
         return "0.0";
     }
 

@@ -29,10 +29,11 @@ template <class Shape>
 Account account(const Shape&, bool mirror, bool smooth, bool pattern) {
     using namespace runtime;
     if constexpr (std::is_same_v<Shape, Sphere<double>> || std::is_same_v<Shape, Cylinder<double>>) {
-        return {
-            Fidelity::approximated,
-            "hit and normal exact, computed in the material; outline and shadow by a mesh, bound in pixels",
-            0.004};
+        return {Fidelity::approximated,
+                "hit and normal exact, computed in the material; outline and shadow by a mesh; bound in "
+                "pixels, for a "
+                "radius of up to 500",
+                0.004};
     } else if constexpr (std::is_same_v<Shape, Disc<double>>) {
         return {Fidelity::approximated, "a polygon; bound of its rim in pixels", 0.004};
     } else if constexpr (std::is_same_v<Shape, Plane<double>>) {

@@ -9,7 +9,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <set>
 #include <type_traits>
 #include <utility>
@@ -19,8 +18,6 @@ namespace scc::compiler {
 using runtime::Vec3;
 
 namespace {
-
-constexpr int highest_trace_level = 256;
 
 class PovExport {
 public:
@@ -74,7 +71,7 @@ private:
         file.line("global_settings {{");
         file.indent();
         file.line("assumed_gamma 1.0");
-        file.line("max_trace_level {}", std::clamp(settings.depth + 1, 1, highest_trace_level));
+        file.line("max_trace_level {}", settings.depth + 1);
         file.line("adc_bailout 0");
         file.line("ambient_light rgb scc_exposure*{}", pov_color(scene_.ambient));
         file.dedent();
@@ -88,12 +85,7 @@ private:
 
     void note_settings() {
         const runtime::RenderSettings& settings = scene_.settings;
-        if (settings.depth + 1 > highest_trace_level) {
-            note(Fidelity::dropped, "depth", "render", {},
-                 fmt::format("POV-Ray follows at most {} mirror bounces", highest_trace_level - 1));
-        } else {
-            note(Fidelity::exact, "depth", "render", {}, "max_trace_level");
-        }
+        note(Fidelity::exact, "depth", "render", {}, "max_trace_level");
         if (!settings.shadows) {
             note(Fidelity::exact, "shadows", "render", {}, "every object is no_shadow");
         }
@@ -235,10 +227,18 @@ private:
         } else {
             note(Fidelity::approximated, kind, object.path, object.span, shape.precision, shape.bound);
         }
+        const bool smooth = has_smooth_normals(object);
+        if (smooth) {
+            note(Fidelity::approximated, kind + " normals", object.path, object.span,
+                 "interpolated, but near silhouettes, where they point away from the viewer, POV-Ray turns "
+                 "them over; "
+                 "bound relative to the light reflected there",
+                 1);
+        }
         if (object.sides.front == object.sides.back) {
             return;
         }
-        if (has_smooth_normals(object)) {
+        if (smooth) {
             note(Fidelity::approximated, "two_sided", object.path, object.span,
                  "interior_texture; POV-Ray tells the sides by the interpolated normal, so that pixels near "
                  "the "

@@ -92,6 +92,10 @@ struct OneVariable {
 
 /// A node on which all results depend, and linearly: conditions first, since they need no scaling.
 std::optional<OneVariable> one_variable(const ir::Function& function) {
+    // The search takes the square of the function's length.
+    if (function.nodes.size() > 4000) {
+        return std::nullopt;
+    }
     for (const bool truth : {true, false}) {
         for (auto t = static_cast<std::uint32_t>(function.nodes.size()); t-- > 0;) {
             const Node& node = function.nodes[t];

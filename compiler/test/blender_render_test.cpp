@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -46,7 +45,8 @@ protected:
         return host::read_image(picture());
     }
 
-    /// How many pixels differ by more than 1e-3 from our own picture; all others must agree to 1e-4.
+    /// How many pixels differ by more than 1e-4 from our own picture: those where an outline or a shadow's
+    /// edge runs right through a pixel's centre.
     int differing_pixels(const ir::Scene& scene) {
         const Image theirs = drawn(scene);
         Image ours(theirs.width, theirs.height);
@@ -56,18 +56,11 @@ protected:
         request.crop = {0, 0, ours.width, ours.height};
         make_drawable(scene, Precision::full).render(request, ours);
         int count = 0;
-        for (int y = 0; y < ours.height; ++y) {
-            for (int x = 0; x < ours.width; ++x) {
-                float difference = 0;
-                for (int c = 0; c < 3; ++c) {
-                    difference = std::max(difference, std::abs(ours.at(x, y)[c] - theirs.at(x, y)[c]));
-                }
-                if (difference > 1e-3F) {
-                    ++count;
-                } else {
-                    EXPECT_LT(difference, 1e-4F) << "at " << x << ", " << y;
-                }
-            }
+        for (std::size_t i = 0; i < ours.pixels.size(); i += 3) {
+            const auto differs = [&](std::size_t k) {
+                return !(std::abs(ours.pixels[k] - theirs.pixels[k]) < 1e-4F);
+            };
+            count += differs(i) || differs(i + 1) || differs(i + 2) ? 1 : 0;
         }
         return count;
     }

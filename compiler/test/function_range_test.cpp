@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <string>
 
 namespace scc::compiler {
@@ -13,8 +15,8 @@ constexpr double inf = std::numeric_limits<double>::infinity();
 /// The range of an expression in x = s.p.x over an interval of x.
 Range range_of(const std::string& expression, Range x) {
     const test::Compiled c =
-        test::compile_shapes("fn f(s: surface) -> number = { let x = s.p.x\n" + expression +
-                             " }\nsphere { material = phong { shininess = f } }");
+        test::compile_shapes("fn f(s: surface) -> number {\n  let x = s.p.x\n  " + expression +
+                             "\n}\nsphere { material = phong { specular = rgb(1, 1, 1), shininess = f } }");
     EXPECT_TRUE(c.fine) << c.messages;
     if (!c.fine || c.scene.functions.empty()) {
         return {};

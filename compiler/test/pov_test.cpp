@@ -81,14 +81,6 @@ TEST(Pov, ShadowsAreOnByDefault) {
     EXPECT_FALSE(has(exported("sphere { }").text, "no_shadow"));
 }
 
-TEST(Pov, TooManyBouncesAreDroppedWithTheReason) {
-    const Exported e = exported("sphere { }\nrender { method = ray { depth = 300 } }");
-    EXPECT_TRUE(has(e.text, "max_trace_level 256"));
-    ASSERT_NE(e.find("depth"), nullptr);
-    EXPECT_EQ(e.find("depth")->fidelity, Fidelity::dropped);
-    EXPECT_TRUE(has(e.find("depth")->how, "255"));
-}
-
 TEST(Pov, CameraFollowsTheSizeOfThePictureAtHand) {
     EXPECT_TRUE(has(exported("sphere { }").text, "*image_width/image_height"));
 }
@@ -164,6 +156,27 @@ TEST(Pov, ABackMaterialIsTheInteriorTexture) {
     EXPECT_EQ(e.find("two_sided")->fidelity, Fidelity::exact);
 }
 
+TEST(Pov, InterpolatedNormalsOfSilhouettesAreApproximated) {
+    const char* corners = "triangle { points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]";
+    const Exported smooth =
+        exported(std::string(corners) + ", normals = [(0, 0, 1), (1, 0, 1), (0, 1, 1)] }");
+    ASSERT_NE(smooth.find("triangle normals"), nullptr);
+    EXPECT_EQ(smooth.find("triangle normals")->fidelity, Fidelity::approximated);
+    EXPECT_EQ(exported(std::string(corners) + " }").find("triangle normals"), nullptr);
+}
+
+TEST(Pov, FlatTrianglesKeepTheirFrontInMirrorImages) {
+    const auto corners = [](const std::string& transform) {
+        const test::Compiled c = test::compile_shapes(
+            "triangle { points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)], transform = " + transform + " }");
+        EXPECT_TRUE(c.fine) << c.messages;
+        Ledger ledger;
+        return emit_pov(c.scene, ledger);
+    };
+    EXPECT_TRUE(has(corners("scale(2, 1, 1)"), "<0.0, 0.0, 0.0>, <0.0, 1.0, 0.0>, <2.0, 0.0, 0.0>"));
+    EXPECT_TRUE(has(corners("scale(-2, 1, 1)"), "<0.0, 0.0, 0.0>, <-2.0, 0.0, 0.0>, <0.0, 1.0, 0.0>"));
+}
+
 // ---- per-point functions ---------------------------------------------------------------------------------
 
 constexpr const char* checker = "fn checker(s: surface) -> color =\n"
@@ -209,7 +222,7 @@ TEST(Pov, ColorsOfThreeFunctionsAreAveraged) {
 
 TEST(Pov, SharedValuesAreCalculatedOnce) {
     const std::string text =
-        exported("fn f(s: surface) -> number = { let a = sin(s.p.x * 3 + s.p.y)\n a * a + 2 }\n"
+        exported("fn f(s: surface) -> number {\n  let a = sin(s.p.x * 3 + s.p.y)\n  a * a + 2\n}\n"
                  "sphere { material = phong { specular = rgb(1, 1, 1), shininess = f } }")
             .text;
     EXPECT_EQ(count(text, "sin("), 1U) << text;

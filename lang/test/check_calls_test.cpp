@@ -40,8 +40,6 @@ TEST(Calls, MatchNamesOfArguments) {
     2 | print(add(1, x = 2))
       |                  ^
 a.scn:2:11: note: the first value is here
-    2 | print(add(1, x = 2))
-      |           ^
 )");
     EXPECT_EQ(
         messages_of(add + std::string("print(add(x = 1, 2))")),

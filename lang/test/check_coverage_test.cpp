@@ -15,7 +15,7 @@ namespace {
 const std::map<Diag, std::string>& scenes() {
     static const std::map<Diag, std::string> rows{
         {Diag::duplicate_name, "let a = 1\nlet a = 2"},
-        {Diag::shadowed_name, "let sin = 1"},
+        {Diag::shadowed_name, "let sin = 1\nprint(sin)"},
         {Diag::unused_let, "let a = 1"},
         {Diag::unused_param, "param a: number = 1"},
         {Diag::cyclic_definition, "let a = a"},

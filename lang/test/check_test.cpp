@@ -135,8 +135,6 @@ TEST(Check, MakesTwoBindingsInOneScopeAnErrorAndInnerOnesNone) {
     2 | let a = 2
       |     ^
 a.scn:1:5: note: the first one is here
-    1 | let a = 1
-      |     ^
 )");
     EXPECT_EQ(messages_of("let a = 1\nfn f(a: number) = a\nprint(f(a))"), "");
     EXPECT_EQ(Scene("fn f(a: number) { let a = 2\n a }").summary(), "1 duplicate-name\n");
@@ -170,23 +168,17 @@ TEST(Check, ShowsTheWayRoundACycle) {
     1 | let a = b
       |     ^
 a.scn:1:9: note: which needs `b` here
-    1 | let a = b
-      |         ^
 a.scn:2:9: note: which needs `f` here
-    2 | let b = f(1)
-      |         ^
 a.scn:3:19: note: which needs `a` here
-    3 | fn f(x: number) = a + x
-      |                   ^
 )");
     EXPECT_EQ(Scene("param a: number = b\nlet b = a").summary(), "1 cyclic-definition\n");
     EXPECT_EQ(Scene("fn f(x: number) -> number = a\nlet a = f(1)").summary(), "2 cyclic-definition\n");
 }
 
 TEST(Check, FindsCyclesAmongManyDefinitions) {
-    std::string text = "let a0 = a19999\n";
-    for (int i = 1; i < 20000; ++i) {
-        text += fmt::format("let a{} = a{}\n", i, i - 1);
+    std::string text = "let a = f0()\nfn f20000() -> number = a\n";
+    for (int i = 0; i < 20000; ++i) {
+        text += fmt::format("fn f{}() -> number = f{}()\n", i, i + 1);
     }
     EXPECT_EQ(Scene(text).summary(), "1 cyclic-definition\n");
 }
@@ -221,8 +213,6 @@ TEST(Check, FindsRepeatedAndMissingFields) {
     1 | ball { radius = 1, radius = 2 }
       |                    ^~~~~~
 a.scn:1:8: note: it is set here
-    1 | ball { radius = 1, radius = 2 }
-      |        ^~~~~~
 a.scn:2:1: error: `chain` needs the field `points` [missing-field]
     2 | chain { }
       | ^~~~~
@@ -302,10 +292,10 @@ TEST(Check, ReadsTheUnitOfTheWorldFromItsText) {
 
 TEST(Check, LimitsHowDeepTypesNest) {
     std::string text = "let a0 = [1]\n";
-    for (int i = 1; i < 2000; ++i) {
+    for (int i = 1; i < 50; ++i) {
         text += fmt::format("let a{} = [a{}]\n", i, i - 1);
     }
-    EXPECT_EQ(Scene(text + "print(a1999)").summary(), "32 too-deep\n");
+    EXPECT_EQ(Scene(text + "print(a49)").summary(), "32 too-deep\n");
 }
 
 TEST(Check, SurvivesLongChainsOfDefinitions) {

@@ -65,24 +65,18 @@ TEST(Evaluation, ReportsAValueOutOfRangeOncePerPlaceWithItsLoop) {
     2 |   ball { radius = i - 5 }
       |                   ^~~~~
 a.scn:1:1: note: in the loop with i = 0; the first of 6 such values
-    1 | for (i in 0..10) {
-      | ^~~
 )");
     EXPECT_EQ(messages_of("let b = [for (i in [3, 4]) ball { radius = 3 - i }]\nb"),
               R"(a.scn:1:44: error: radius is 0; a radius is greater than 0 [value-out-of-range]
     1 | let b = [for (i in [3, 4]) ball { radius = 3 - i }]
       |                                            ^~~~~
 a.scn:1:15: note: in the loop with i = 3; the first of 2 such values
-    1 | let b = [for (i in [3, 4]) ball { radius = 3 - i }]
-      |               ^
 )");
     EXPECT_EQ(messages_of("fn f(r: number) = ball { radius = r }\nf(-1)\nf(-2)"),
               R"(a.scn:1:35: error: radius is -1; a radius is greater than 0 [value-out-of-range]
     1 | fn f(r: number) = ball { radius = r }
       |                                   ^
 a.scn:1:35: note: the first of 2 such values
-    1 | fn f(r: number) = ball { radius = r }
-      |                                   ^
 )");
 }
 
@@ -229,6 +223,7 @@ TEST(Limits, BoundTheSteps) {
               R"(a.scn:1:11: error: the scene takes more than 1000 steps to evaluate [steps-exceeded]
     1 | for (i in 0..1000000000) { }
       |           ^~~~~~~~~~~~~
+a.scn:1:1: note: in the loop with i = 996
 )");
 }
 
@@ -255,6 +250,7 @@ TEST(Limits, BoundTheLengthOfListsAndStrings) {
               R"(a.scn:1:7: error: this list has more than 10 elements [list-too-long]
     1 | print([for (i in 0..11) i])
       |       ^~~~~~~~~~~~~~~~~~~~
+a.scn:1:13: note: in the loop with i = 9
 )");
     EXPECT_EQ(Scene("for (i in 0..11) { ball { } }", {}, limits).summary(), "1 list-too-long\n");
     EXPECT_EQ(Scene("for (i in 0..10) { ball { } }", {}, limits).summary(), "");
@@ -272,7 +268,7 @@ TEST(Limits, BoundHowDeepThingsNest) {
         text += fmt::format("let g{} = pile {{ g{} }}\n", i, i - 1);
     }
     EXPECT_EQ(Scene(text + "g299").summary(), "201 too-deep\n");
-    EXPECT_EQ(Scene(text + "g199").summary(), "260 unused-let\n301 unused-let\n");
+    EXPECT_EQ(Scene(text + "g199").summary(), "300 unused-let\n");
 }
 
 TEST(Limits, BoundTextOfListsThatShareTheirElements) {

@@ -20,12 +20,12 @@ TEST(Values, TakeTheRemainderWithTheSignOfTheDivisor) {
     EXPECT_EQ(value_of("-7.5 % 2"), "0.5");
     EXPECT_EQ(value_of("6 % 3"), "0");
     EXPECT_EQ(value_of("mod(-1, 5)"), "4");
-    EXPECT_EQ(value_of("400deg % 360deg"), "40deg");
+    EXPECT_EQ(value_of("450deg % 360deg"), "90deg");
 }
 
 TEST(Values, AddAndScaleAngles) {
-    EXPECT_EQ(value_of("30deg + 15deg * 2 - 10deg / 2"), "55deg");
-    EXPECT_EQ(value_of("2 * 30deg"), "60deg");
+    EXPECT_EQ(value_of("30deg + 15deg * 2"), "60deg");
+    EXPECT_EQ(value_of("2 * 30deg - 60deg / 2"), "30deg");
     EXPECT_EQ(value_of("90deg / 30deg"), "3");
     EXPECT_EQ(value_of("-1rad"), "-1rad");
     EXPECT_EQ(value_of("180deg / 1rad == pi"), "true");

@@ -70,6 +70,12 @@ TEST(Trace, FollowsCallsAndUnrollsKnownLoops) {
               "mul(p.x, mul(p.x, mul(p.x, 1)))\n");
 }
 
+TEST(Trace, LetsKnownRecursionStandUnderAnUnknownCondition) {
+    EXPECT_EQ(traced("if (s.p.x > 0) twice(s.p.x, 2) else 0",
+                     "fn twice(x: number, n: number) -> number = if (n == 0) x else twice(x + x, n - 1)"),
+              "select(gt(p.x, 0), add(add(p.x, p.x), add(p.x, p.x)), 0)\n");
+}
+
 TEST(Trace, MemoisesLetsPerCall) {
     test::Scene scene("fn f(x: number) { let y = x * x\n y + y }\n"
                       "ball { material = paint { gloss = fn(s: surface) = f(s.p.x) } }");
@@ -91,7 +97,7 @@ TEST(Trace, MemoisesLetsPerCall) {
 TEST(Trace, ReportsAnIndexThatDependsOnTheSurface) {
     EXPECT_EQ(
         traced("[1, 2][s.p.x]"),
-        R"(a.scn:2:61: error: this index depends on the surface; a list takes a known index [depends-on-surface]
+        R"(a.scn:2:59: error: this index depends on the surface; a list takes a known index [depends-on-surface]
     2 | ball { material = paint { gloss = fn(s: surface) = [1, 2][s.p.x] } }
       |                                                           ^~~~~
 )");

@@ -1,23 +1,14 @@
 #pragma once
 
 #include "runtime/math/lane.h"
+#include "runtime/math/registers.h"
 
 namespace scc::runtime {
-
-namespace detail {
-
-/// The compiler's vectors (g++ and clang have the same), since loops over arrays are not kept in registers.
-template <class T, int N>
-struct VectorOf {
-    typedef T type __attribute__((vector_size(sizeof(T) * N)));
-};
-
-} // namespace detail
 
 /// The masks of Pack<T, N>: all bits of a lane are set or none.
 template <class T, int N>
 struct PackMask {
-    using RealVector = typename detail::VectorOf<T, N>::type;
+    using RealVector = detail::VectorType<T, N>;
     using Vector = decltype(RealVector{} < RealVector{});
     Vector v{};
 
@@ -36,30 +27,10 @@ struct PackMask {
 
     /// Bit i is lane i.
     friend unsigned bits(PackMask mask) {
-#if defined(__AVX512DQ__)
-        if constexpr (sizeof(T) * N == 64 && sizeof(T) == 8) {
-            return __builtin_ia32_cvtq2mask512(
-                reinterpret_cast<typename detail::VectorOf<long long, N>::type>(mask.v));
-        } else if constexpr (sizeof(T) * N == 64) {
-            return __builtin_ia32_cvtd2mask512(
-                reinterpret_cast<typename detail::VectorOf<int, N>::type>(mask.v));
-        } else
-#endif
-#if defined(__AVX2__)
-            if constexpr (sizeof(T) * N == 32 && sizeof(T) == 8) {
-            return static_cast<unsigned>(__builtin_ia32_movmskpd256(reinterpret_cast<RealVector>(mask.v)));
-        } else if constexpr (sizeof(T) * N == 32) {
-            return static_cast<unsigned>(__builtin_ia32_movmskps256(reinterpret_cast<RealVector>(mask.v)));
-        } else
-#endif
-#if defined(__SSE2__)
-            if constexpr (sizeof(T) * N == 16 && sizeof(T) == 8) {
-            return static_cast<unsigned>(__builtin_ia32_movmskpd(reinterpret_cast<RealVector>(mask.v)));
-        } else if constexpr (sizeof(T) * N == 16) {
-            return static_cast<unsigned>(__builtin_ia32_movmskps(reinterpret_cast<RealVector>(mask.v)));
-        } else
-#endif
-        {
+        const auto lanes = reinterpret_cast<RealVector>(mask.v);
+        if constexpr (requires { detail::sign_bits(lanes); }) {
+            return detail::sign_bits(lanes);
+        } else {
             unsigned result = 0;
             for (int i = 0; i < N; ++i) {
                 result |= (mask.v[i] != 0 ? 1U : 0U) << i;
@@ -73,7 +44,7 @@ struct PackMask {
 template <class T, int N>
 struct PackIndex {
     using Number = std::conditional_t<sizeof(T) == 8, unsigned long long, unsigned>;
-    using Vector = typename detail::VectorOf<Number, N>::type;
+    using Vector = detail::VectorType<Number, N>;
     Vector v{};
 
     PackIndex() = default;
@@ -97,7 +68,7 @@ private:
 /// N lanes of float or double in one register of 16, 32 or 64 bytes, whichever the target has.
 template <class T, int N>
 struct Pack {
-    using Vector = typename detail::VectorOf<T, N>::type;
+    using Vector = detail::VectorType<T, N>;
     Vector v{};
 
     Pack() = default;
@@ -177,35 +148,10 @@ Pack<T, N> absolute(Pack<T, N> x) {
 
 template <class T, int N>
 Pack<T, N> square_root(Pack<T, N> x) {
-#if defined(__AVX512F__) && !defined(__clang__)
-    if constexpr (sizeof(T) * N == 64 && sizeof(T) == 8) {
-        return Pack<T, N>(__builtin_ia32_sqrtpd512_mask(x.v, x.v, -1, 4));
-    } else if constexpr (sizeof(T) * N == 64) {
-        return Pack<T, N>(__builtin_ia32_sqrtps512_mask(x.v, x.v, -1, 4));
-    } else
-#elif defined(__AVX512F__)
-    if constexpr (sizeof(T) * N == 64 && sizeof(T) == 8) {
-        return Pack<T, N>(__builtin_ia32_sqrtpd512(x.v, 4));
-    } else if constexpr (sizeof(T) * N == 64) {
-        return Pack<T, N>(__builtin_ia32_sqrtps512(x.v, 4));
-    } else
-#endif
-#if defined(__AVX2__)
-        if constexpr (sizeof(T) * N == 32 && sizeof(T) == 8) {
-        return Pack<T, N>(__builtin_ia32_sqrtpd256(x.v));
-    } else if constexpr (sizeof(T) * N == 32) {
-        return Pack<T, N>(__builtin_ia32_sqrtps256(x.v));
-    } else
-#endif
-#if defined(__SSE2__)
-        if constexpr (sizeof(T) * N == 16 && sizeof(T) == 8) {
-        return Pack<T, N>(__builtin_ia32_sqrtpd(x.v));
-    } else if constexpr (sizeof(T) * N == 16) {
-        return Pack<T, N>(__builtin_ia32_sqrtps(x.v));
-    } else
-#endif
-    {
-        return detail::each_lane<T, N>([&](int i) { return square_root(x.v[i]); });
+    if constexpr (requires { detail::vector_root(x.v); }) {
+        return Pack<T, N>(detail::vector_root(x.v));
+    } else {
+        return detail::each_lane<T, N>([&](int i) { return square_root(T(x.v[i])); });
     }
 }
 
@@ -275,15 +221,6 @@ Pack<T, N> logarithm(Pack<T, N> x) {
     return detail::each_lane<T, N>([&](int i) { return logarithm(T(x.v[i])); });
 }
 
-/// Bytes of the widest registers that the program is compiled for.
-#if defined(__AVX512DQ__)
-inline constexpr int register_bytes = 64;
-#elif defined(__AVX2__)
-inline constexpr int register_bytes = 32;
-#else
-inline constexpr int register_bytes = 16;
-#endif
-
 namespace detail {
 
 template <class R>
@@ -292,7 +229,7 @@ struct WidestLane {
 };
 template <class R>
 requires(sizeof(R) <= sizeof(double)) struct WidestLane<R> {
-    using type = Pack<R, register_bytes / static_cast<int>(sizeof(R))>;
+    using type = Pack<R, detail::register_bytes / static_cast<int>(sizeof(R))>;
 };
 
 } // namespace detail

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <ctime>
 
-/// Times the lecture scene, compiled and generic, in both precisions: 1280x720, one sample, one thread. Processor time,
-/// so that other processes matter less.
+/// Times the lecture scene, compiled and generic, in both precisions: 1280x720, one sample, one thread.
+/// Processor time, so that other processes matter less.
 namespace {
 
 using namespace scc::runtime;

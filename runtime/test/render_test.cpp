@@ -98,7 +98,8 @@ struct Crowd {
         scene.materials[3].diffuse.function = 0;
         scene.materials[2].shininess.function = 1;
         scene.functions.push_back(
-            {{{Opcode::world_x}, {Opcode::sin, {0}}, {Opcode::abs, {1}}, {Opcode::n_y}, {Opcode::abs, {3}}}, {2, 4, 2}});
+            {{{Opcode::world_x}, {Opcode::sin, {0}}, {Opcode::abs, {1}}, {Opcode::n_y}, {Opcode::abs, {3}}},
+             {2, 4, 2}});
         scene.functions.push_back(
             {{{Opcode::p_z}, {Opcode::constant, {}, R(5)}, {Opcode::pow, {1, 0}}}, {2}});
     }

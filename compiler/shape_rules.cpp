@@ -1,0 +1,51 @@
+#include "compiler/shape_rules.h"
+
+#include "runtime/math/vec.h"
+
+namespace scc::compiler {
+
+namespace {
+
+using runtime::Vec3;
+
+// One overload per shape, so that a new one is not forgotten.
+
+std::string_view rule(const runtime::Sphere<double>&) {
+    return "";
+}
+
+std::string_view rule(const runtime::Box<double>& b) {
+    return b.min.x < b.max.x && b.min.y < b.max.y && b.min.z < b.max.z
+               ? ""
+               : "this box is flat or inside out; each component of `min` is less than that of `max`";
+}
+
+std::string_view rule(const runtime::Plane<double>&) {
+    return "";
+}
+
+std::string_view rule(const runtime::Cylinder<double>& c) {
+    return c.from == c.to ? "`from` and `to` are the same point; a cylinder has a length" : "";
+}
+
+std::string_view rule(const runtime::Disc<double>& d) {
+    return d.hole < d.radius ? "" : "the hole is as large as the disc; `hole` is less than `radius`";
+}
+
+std::string_view rule(const runtime::Triangle<double>& t) {
+    const Vec3<double> a = t.points[1] - t.points[0];
+    const Vec3<double> b = t.points[2] - t.points[0];
+    return length(cross(a, b)) > 1e-14 * length(a) * length(b) ? "" : "the three points lie on a line";
+}
+
+std::string_view rule(const runtime::Mesh<double>&) {
+    return "";
+}
+
+} // namespace
+
+std::string_view problem(const ir::Shape& shape) {
+    return std::visit([](const auto& s) { return rule(s); }, shape);
+}
+
+} // namespace scc::compiler
