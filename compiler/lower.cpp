@@ -25,6 +25,9 @@ using runtime::Vec3;
 
 namespace {
 
+/// Groups share what they hold, so a few lines can stand for more objects than any memory has.
+constexpr std::size_t most_objects = 20'000'000;
+
 // ---- shapes from their own descriptions ----------------------------------------------------------------
 
 void assign(double& target, const lang::Value& value) {
@@ -64,6 +67,7 @@ private:
     std::map<std::pair<std::string, MeshNormals>, std::optional<std::uint32_t>> meshes_;
     std::set<std::string> mesh_names_;
     std::set<std::string> paths_;
+    bool full_ = false;
 };
 
 template <class Owner, class T>
@@ -206,7 +210,7 @@ void ObjectLowering::add_all(const std::vector<lang::ThingPtr>& siblings, const 
         }
     }
     for (const lang::ThingPtr& thing : siblings) {
-        if (thing->constructor->type != lang::TypeKind::shape) {
+        if (thing->constructor->type != lang::TypeKind::shape || full_) {
             continue;
         }
         const std::string name = own_name(*thing);
@@ -228,6 +232,13 @@ void ObjectLowering::add(const Thing& thing, const std::string& path, const Affi
     }
     const lang::FieldValue* own = thing.find("material");
     const Thing* material = own != nullptr ? to_thing(own->value).get() : inherited_material;
+    if (scene_.objects.size() >= most_objects) {
+        if (!full_) {
+            diagnostics_.report(Diag::too_many_objects, thing.span, most_objects);
+        }
+        full_ = true;
+        return;
+    }
     if (thing.constructor->takes_children) {
         add_all(thing.children, path + "/", world_from_object, material);
         return;

@@ -118,6 +118,9 @@ bool report(const Loaded& loaded) {
     for (const lang::Diagnostic& diagnostic : loaded.diagnostics.sorted()) {
         text += lang::render_text(loaded.sources, diagnostic, color);
     }
+    for (const std::string& print : loaded.module.prints) {
+        text += print + "\n";
+    }
     if (const std::size_t errors = loaded.diagnostics.error_count(); errors > 0) {
         text += fmt::format("{} error{}\n", errors, errors == 1 ? "" : "s");
     }

@@ -138,7 +138,8 @@ private:
     static std::size_t bin_of(const Vec3<float>& center, int axis, const Bounds<float>& center_box) {
         const float low = at(center_box.min, axis), extent = at(center_box.max, axis) - low;
         const float position = (at(center, axis) - low) / extent * static_cast<float>(bins);
-        return std::min(bins - 1, static_cast<std::size_t>(position));
+        return position < static_cast<float>(bins) ? static_cast<std::size_t>(position)
+                                                   : bins - 1; // also for NaN
     }
 
     void find_split(std::size_t begin, std::size_t end, int axis, const Bounds<float>& center_box,
