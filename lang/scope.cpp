@@ -56,19 +56,20 @@ std::uint32_t Names::depth(const Scope* from, const Scope* to) {
     return frames;
 }
 
+static bool stands_within(const Binding& inner, const Binding* outer) {
+    const Binding* b = inner.owner;
+    while (b && b != outer) {
+        b = b->owner;
+    }
+    return b == outer;
+}
+
 void Names::note_use(Binding& target, Span span, Binding* user) {
     target.used = true;
     if (target.kind == Binding::Kind::variable || target.kind == Binding::Kind::alias) {
         return;
     }
-    const auto stands_within = [&target](const Binding* outer) {
-        const Binding* b = target.owner;
-        while (b && b != outer) {
-            b = b->owner;
-        }
-        return b == outer;
-    };
-    for (Binding* b = user; b && !stands_within(b); b = b->owner) {
+    for (Binding* b = user; b && !stands_within(target, b); b = b->owner) {
         b->uses.push_back({&target, span});
     }
 }

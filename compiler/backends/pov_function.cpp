@@ -141,7 +141,7 @@ double excess(const ir::Function& function, std::uint32_t node, const InputRange
             largest = std::max({largest, range.min - value.min, value.max - range.max});
         }
     }
-    return largest;
+    return std::min(largest, 1e30);
 }
 
 std::string map_point(const runtime::Affine<double>& a) {
@@ -176,7 +176,7 @@ const PovFunctions::Declared& PovFunctions::declare(std::int32_t index, std::uin
     if (expression.reads_normal()) {
         declared.obstacle = "POV-Ray's functions cannot read the normal n";
     } else if (!expression.fits()) {
-        declared.obstacle = "it keeps more values at a time than POV-Ray's functions have parameters";
+        declared.obstacle = "it needs more parameters or deeper nesting than POV-Ray's functions have";
     } else {
         declared.name = expression.declare(fmt::format("{}{}", function.name, suffix), names_, out_);
     }
