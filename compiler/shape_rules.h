@@ -6,7 +6,8 @@
 
 namespace scc::compiler {
 
-/// What is wrong with a shape whose fields are each in range: it encloses or covers nothing. Empty if it is fine.
+/// What is wrong with a shape whose fields are each in range: it encloses or covers nothing. Empty if it is
+/// fine.
 std::string_view problem(const ir::Shape& shape);
 
 } // namespace scc::compiler

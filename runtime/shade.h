@@ -94,15 +94,17 @@ public:
     }
 
 private:
-    /// The normal faces the viewer and the material is chosen by the side of the geometric normal that the
-    /// ray is on.
+    /// The material is chosen by the side of the geometric normal that the ray is on. The shading normal is
+    /// turned to the viewer by its own sign, so that an interpolated one that already points away at a
+    /// silhouette shades as in POV-Ray.
     Encounter<L> encounter(const Ray<L>& ray, const Hit<L>& hit, const Mask& active) const {
         Encounter<L> result;
         for_each_primitive(scene_, hit, active, [&](const auto& primitive, const Mask& here) {
             const WorldSurface<L> world = surface_of(scene_, primitive, ray, hit.shape, here);
             const Surface<L>& surface = world.surface;
             const Mask back = dot(surface.normal, ray.dir) > 0;
-            const Vec3<L> normal = choose(back, -surface.shading_normal, surface.shading_normal);
+            const Vec3<L> normal = choose(dot(surface.shading_normal, ray.dir) > 0, -surface.shading_normal,
+                                          surface.shading_normal);
             const Sides& sides = primitive.tag.sides;
             using Index = IndexOf<L>;
             const Index material = S::traits.two_sided ? choose(back, Index(sides.back), Index(sides.front))

@@ -228,13 +228,6 @@ private:
             note(Fidelity::approximated, kind, object.path, object.span, shape.precision, shape.bound);
         }
         const bool smooth = has_smooth_normals(object);
-        if (smooth) {
-            note(Fidelity::approximated, kind + " normals", object.path, object.span,
-                 "interpolated, but near silhouettes, where they point away from the viewer, POV-Ray turns "
-                 "them over; "
-                 "bound relative to the light reflected there",
-                 1);
-        }
         if (object.sides.front == object.sides.back) {
             return;
         }

@@ -74,6 +74,10 @@ double rounded(double x, double step) {
 /// In the middle of what POV-Ray draws without error, with room for horizons: it sees nothing beyond 1e7.
 constexpr double comfortable_size = 8;
 
+/// Neighbouring triangles of a mesh shadow each other over short distances, and POV-Ray sees no occluder
+/// nearer than 1e-3: such scenes are written larger, at the price of the horizon.
+constexpr double comfortable_mesh_size = 512;
+
 } // namespace
 
 std::string PovFrame::texture_transform() const {
@@ -94,8 +98,10 @@ PovFrame choose_frame(const ir::Scene& scene) {
     if (!(extent > 0) || !std::isfinite(extent)) {
         return frame;
     }
-    if (extent < 1 || extent > 1000) {
-        frame.scale = nearest_power_of_two(comfortable_size / extent);
+    const double wanted = scene.meshes.empty() ? comfortable_size : comfortable_mesh_size;
+    const double smallest = scene.meshes.empty() ? 1 : comfortable_mesh_size / 2;
+    if (extent < smallest || extent > 1000) {
+        frame.scale = nearest_power_of_two(wanted / extent);
     }
     const Vec3<double> center = around.center();
     const double distance = length(center);

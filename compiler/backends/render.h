@@ -4,7 +4,6 @@
 #include "compiler/ir/scene.h"
 #include "runtime/host/draw.h"
 
-
 namespace scc::compiler {
 
 /// The scene in the generic renderer's tables, hierarchies built, ready to be drawn in this process.

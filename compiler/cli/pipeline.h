@@ -38,7 +38,8 @@ enum class Stage { tokens, tree, module, scene };
 /// the scene file cannot be read, host::UsageError for a -D without `=`.
 Loaded load(const SceneOptions& options, Stage last);
 
-/// Prints all diagnostics to stderr, what the scene printed, and how many errors there were. True if there were none.
+/// Prints all diagnostics to stderr, what the scene printed, and how many errors there were. True if there
+/// were none.
 bool report(const Loaded& loaded);
 
 } // namespace scc::cli

@@ -12,8 +12,8 @@
 #include <fstream>
 #include <iterator>
 
-/// golden/CASE.scn with the texts that it becomes beside it: CASE.ir, CASE.cpp, CASE.pov. With SCC_UPDATE_GOLDEN=1 the
-/// texts are rewritten instead of compared; the change is then reviewed like code.
+/// golden/CASE.scn with the texts that it becomes beside it: CASE.ir, CASE.cpp, CASE.pov. With
+/// SCC_UPDATE_GOLDEN=1 the texts are rewritten instead of compared; the change is then reviewed like code.
 namespace scc::compiler {
 namespace {
 
@@ -49,10 +49,12 @@ protected:
     }
 };
 
-INSTANTIATE_TEST_SUITE_P(All, Golden, testing::ValuesIn(cases()), [](const auto& name) { return name.param; });
+INSTANTIATE_TEST_SUITE_P(All, Golden, testing::ValuesIn(cases()),
+                         [](const auto& name) { return name.param; });
 
 TEST_P(Golden, BackendsEmitTheReviewedText) {
-    test::Compiled c = test::compile(read(golden_folder / (GetParam() + ".scn")), {.name = GetParam(), .assets = {}, .camera = ""});
+    test::Compiled c = test::compile(read(golden_folder / (GetParam() + ".scn")),
+                                     {.name = GetParam(), .assets = {}, .camera = ""});
     ASSERT_TRUE(c.fine) << c.messages;
     run_passes(c.scene);
     expect_golden(".ir", print(c.scene));

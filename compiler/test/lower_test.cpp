@@ -36,7 +36,7 @@ TEST(Lower, ChildWithoutMaterialTakesTheNearestEnclosingOne) {
     EXPECT_EQ(name(0), "red");
     EXPECT_EQ(name(1), "blue");
     EXPECT_EQ(name(2), "red");
-    EXPECT_EQ(name(3), "plane");
+    EXPECT_EQ(name(3), "default");
     EXPECT_EQ(c.scene.materials[c.scene.objects[3].sides.front].phong.diffuse.value,
               (runtime::Rgb<double>{0.8, 0.8, 0.8}));
 }

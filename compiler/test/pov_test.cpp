@@ -156,15 +156,6 @@ TEST(Pov, ABackMaterialIsTheInteriorTexture) {
     EXPECT_EQ(e.find("two_sided")->fidelity, Fidelity::exact);
 }
 
-TEST(Pov, InterpolatedNormalsOfSilhouettesAreApproximated) {
-    const char* corners = "triangle { points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]";
-    const Exported smooth =
-        exported(std::string(corners) + ", normals = [(0, 0, 1), (1, 0, 1), (0, 1, 1)] }");
-    ASSERT_NE(smooth.find("triangle normals"), nullptr);
-    EXPECT_EQ(smooth.find("triangle normals")->fidelity, Fidelity::approximated);
-    EXPECT_EQ(exported(std::string(corners) + " }").find("triangle normals"), nullptr);
-}
-
 TEST(Pov, FlatTrianglesKeepTheirFrontInMirrorImages) {
     const auto corners = [](const std::string& transform) {
         const test::Compiled c = test::compile_shapes(

@@ -111,10 +111,11 @@ def smooth_hit(o=None):
     """A flat mesh that is shaded with normals interpolated from its corners."""
     g, _, out = new_group("smooth hit", {}, HIT)
     geometry = g.add("ShaderNodeNewGeometry").outputs
-    sign = front_sign(g, geometry)
+    normal = normal_to_world(g, g.attribute("GEOMETRY", "scc_normal"))
+    facing = g.f("SUBTRACT", 1.0, g.f("MULTIPLY", 2.0, g.f("LESS_THAN", g.v("DOT_PRODUCT", normal, geometry["Incoming"]), 0.0)))
     g.put(out["Position"], geometry["Position"])
-    g.put(out["Normal"], g.v("SCALE", normal_to_world(g, g.attribute("GEOMETRY", "scc_normal")), sign))
-    g.put(out["Outward"], g.v("SCALE", geometry["Normal"], sign))
+    g.put(out["Normal"], g.v("SCALE", normal, facing))
+    g.put(out["Outward"], g.v("SCALE", geometry["Normal"], front_sign(g, geometry)))
     g.put(out["Back"], geometry["Backfacing"])
     g.put(out["P"], g.add("ShaderNodeTexCoord").outputs["Object"])
     return g.tree
