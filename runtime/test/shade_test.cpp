@@ -205,8 +205,13 @@ TEST(Shade, SmoothNormalsShadeAndGeometricNormalsChooseTheSide) {
     scene.add(Bare<Triangle<double>>{triangle, {0, {0, 1}}});
     scene.directional_lights.push_back({{0, 1, 0}, gray(1), gray(1)});
     EXPECT_NEAR(seen(scene, {0, 2, 0}, down), 0.8, 1e-15);
-    // From the front by the flat normal, from behind by the interpolated one.
-    EXPECT_NEAR(seen(scene, {-4, 1, 0}, {4, -1, 0}), 0.8, 1e-15);
+    // From the front by the flat normal, from behind by the interpolated one: it turns to the viewer, away
+    // from the light. The material is still that of the front.
+    EXPECT_EQ(seen(scene, {-4, 1, 0}, {4, -1, 0}), 0);
+    scene.directional_lights[0].to_light = {0, -1, 0};
+    scene.directional_lights.push_back({{-0.6, -0.8, 0}, gray(1), gray(1)});
+    EXPECT_NEAR(seen(scene, {-4, 1, 0}, {4, -1, 0}, 5, false), 0.8 + 1, 1e-15);
+    scene.directional_lights = {{{0, 1, 0}, gray(1), gray(1)}};
     EXPECT_EQ(seen(scene, {0, -2, 0}, {0, 1, 0}), 0);
 }
 
