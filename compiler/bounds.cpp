@@ -1,35 +1,39 @@
 #include "compiler/bounds.h"
 
+#include <type_traits>
+
 namespace scc::compiler {
 
-namespace {
+using runtime::Bounds;
 
-runtime::Bounds<double> mesh_bounds(const ir::Mesh& mesh) {
-    runtime::Bounds<double> box;
+Bounds<double> mesh_bounds(const ir::Mesh& mesh) {
+    Bounds<double> box;
     for (std::size_t i = 0; i + 2 < mesh.positions.size(); i += 3) {
         box.add(runtime::Vec3<double>{mesh.positions[i], mesh.positions[i + 1], mesh.positions[i + 2]});
     }
     return box;
 }
 
-} // namespace
+std::optional<Bounds<double>> object_bounds(const ir::Shape& shape, const ir::Scene& scene) {
+    return std::visit(
+        [&]<class S>(const S& s) -> std::optional<Bounds<double>> {
+            if constexpr (std::is_same_v<S, runtime::Plane<double>>) {
+                return std::nullopt;
+            } else if constexpr (std::is_same_v<S, runtime::Mesh<double>>) {
+                return mesh_bounds(scene.meshes[s.mesh]);
+            } else {
+                return s.bounds();
+            }
+        },
+        shape);
+}
 
-runtime::Bounds<double> world_bounds(const ir::Scene& scene) {
-    std::vector<runtime::Bounds<double>> meshes;
-    for (const ir::Mesh& mesh : scene.meshes) {
-        meshes.push_back(mesh_bounds(mesh));
-    }
-    runtime::Bounds<double> box;
+Bounds<double> world_bounds(const ir::Scene& scene) {
+    Bounds<double> box;
     for (const ir::Object& object : scene.objects) {
-        std::visit(
-            [&]<class Shape>(const Shape& shape) {
-                if constexpr (std::is_same_v<Shape, runtime::Mesh<double>>) {
-                    box.add(transform_bounds(object.world_from_object, meshes[shape.mesh]));
-                } else if constexpr (!std::is_same_v<Shape, runtime::Plane<double>>) {
-                    box.add(transform_bounds(object.world_from_object, shape.bounds()));
-                }
-            },
-            object.shape);
+        if (const auto bounds = object_bounds(object.shape, scene)) {
+            box.add(transform_bounds(object.world_from_object, *bounds));
+        }
     }
     return box;
 }

@@ -8,7 +8,8 @@ namespace scc::runtime {
 enum class Rule { any, positive, non_negative, nonzero_vector };
 
 /// Describes one author-visible member of a shape: the front end's schema, the IR's text and the generated
-/// C++ are all derived from it. The default value is the member's initialiser.
+/// C++ are all derived from it. The default value is the member's initialiser. A shape declares its members
+/// in the order of fields(), the flag of an optional one right after it.
 template <class Owner, class T>
 struct Field {
     std::string_view name;

@@ -21,13 +21,12 @@ struct Budget {
 };
 
 /// The budget for an image of this size, or nothing for an unknown renderer. Pixel counts are stated per 640
-/// x 480 primary rays and grow with their number (n x n samples per pixel: n * n times as many), never below
-/// their base. `exposure`: RenderResult::exposure, since a file drawn darker has proportionally coarser
-/// steps.
+/// x 480 pixels, for Blender per 640 x 480 primary rays, and grow with their number, never below their base.
+/// `exposure`: RenderResult::exposure, since a file drawn darker has proportionally coarser steps.
 ///
-/// With n x n samples an edge that falls differently for one sample moves its pixel by contrast / (n * n):
-/// errors at edges are smaller but on up to n * n times as many pixels, hence the growth. The edge mask sees
-/// the averaged image.
+/// With n x n samples an edge that falls differently for one ray moves its pixel by contrast / (n * n):
+/// Blender's errors at edges are smaller but on up to n * n times as many pixels, hence its growth with the
+/// rays. The edge mask sees the averaged image.
 std::optional<Budget> budget_for(const std::string& renderer, int width, int height, int samples_per_axis = 1,
                                  double exposure = 1);
 

@@ -1,12 +1,12 @@
 #include "compiler/backends/pov_frame.h"
 
 #include "compiler/backends/pov_text.h"
+#include "compiler/bounds.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 namespace scc::compiler {
 
@@ -18,14 +18,6 @@ namespace {
 
 double nearest_power_of_two(double x) {
     return std::exp2(std::round(std::log2(x)));
-}
-
-Bounds<double> mesh_bounds(const ir::Mesh& mesh) {
-    Bounds<double> bounds;
-    for (std::size_t i = 0; i + 2 < mesh.positions.size(); i += 3) {
-        bounds.add(Vec3<double>{mesh.positions[i], mesh.positions[i + 1], mesh.positions[i + 2]});
-    }
-    return bounds;
 }
 
 double size_of(const Bounds<double>& bounds) {
@@ -135,21 +127,6 @@ Placement place(const ir::Object& object, const ir::Scene& scene, const PovFrame
     placement.transform.m[1][3] = moved.y;
     placement.transform.m[2][3] = moved.z;
     return placement;
-}
-
-std::optional<Bounds<double>> object_bounds(const ir::Shape& shape, const ir::Scene& scene) {
-    return std::visit(
-        [&](const auto& s) -> std::optional<Bounds<double>> {
-            using S = std::decay_t<decltype(s)>;
-            if constexpr (std::is_same_v<S, runtime::Plane<double>>) {
-                return std::nullopt;
-            } else if constexpr (std::is_same_v<S, runtime::Mesh<double>>) {
-                return mesh_bounds(scene.meshes[s.mesh]);
-            } else {
-                return s.bounds();
-            }
-        },
-        shape);
 }
 
 InputRanges input_ranges(const ir::Object& object, const ir::Scene& scene) {

@@ -2,9 +2,7 @@
 
 #include "compiler/backends/function_range.h"
 #include "compiler/ir/scene.h"
-#include "runtime/bounds.h"
 
-#include <optional>
 #include <string>
 
 /// Where the scene stands in the file. POV-Ray's tolerances are absolute lengths and its bounding boxes
@@ -33,9 +31,6 @@ Placement place(const ir::Object& object, const ir::Scene& scene, const PovFrame
 
 /// By how much the vertices of a mesh are scaled where it is declared.
 double mesh_scale(const ir::Mesh& mesh);
-
-/// In object space; none for unbounded shapes.
-std::optional<runtime::Bounds<double>> object_bounds(const ir::Shape& shape, const ir::Scene& scene);
 
 /// What a function can read on the object.
 InputRanges input_ranges(const ir::Object& object, const ir::Scene& scene);

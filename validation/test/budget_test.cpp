@@ -22,11 +22,12 @@ Image off_by(int width, int height, float error, int count) {
     return image;
 }
 
-TEST(Budget, GrowsWithTheNumberOfRaysButNotBelowItsBase) {
+TEST(Budget, GrowsWithTheImageButNotBelowItsBase) {
     EXPECT_EQ(budget_for("pov", 160, 120)->outliers, 5U);
     EXPECT_EQ(budget_for("pov", 640, 480)->outliers, 5U);
     EXPECT_EQ(budget_for("pov", 1280, 960)->outliers, 20U);
-    EXPECT_EQ(budget_for("pov", 640, 480, 3)->outliers, 45U);
+    EXPECT_EQ(budget_for("pov", 640, 480, 3)->outliers, 5U);
+    EXPECT_EQ(budget_for("blender", 640, 480, 4)->above_1e3, 320U);
     EXPECT_EQ(budget_for("blender", 64, 48)->above_1e3, 20U);
     EXPECT_EQ(budget_for("blender", 1280, 480)->above_1e3, 40U);
     EXPECT_EQ(budget_for("native", 6400, 4800)->outliers, 0U);
