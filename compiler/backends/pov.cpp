@@ -227,15 +227,13 @@ private:
         } else {
             note(Fidelity::approximated, kind, object.path, object.span, shape.precision, shape.bound);
         }
-        const bool smooth = has_smooth_normals(object);
         if (object.sides.front == object.sides.back) {
             return;
         }
-        if (smooth) {
+        if (has_smooth_normals(object)) {
             note(Fidelity::approximated, "two_sided", object.path, object.span,
                  "interior_texture; POV-Ray tells the sides by the interpolated normal, so that pixels near "
-                 "the "
-                 "silhouette may show the other material; bound in radiance",
+                 "the silhouette may show the other material; bound in radiance",
                  1);
         } else {
             note(Fidelity::exact, "two_sided", object.path, object.span, "interior_texture");
