@@ -1,53 +1,82 @@
 #pragma once
 
 #include "runtime/accel/bvh_node.h"
+#include "runtime/math/vec.h"
 
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace scc::runtime {
 
-/// 16 bytes. Corners as seen counter-clockwise from the front.
-struct MeshTriangle {
-    std::uint32_t corners[3]; ///< indices into positions
-    std::uint32_t id;         ///< in the source; of two hits at equal distance the smaller counts
-};
-static_assert(sizeof(MeshTriangle) == 16);
-
 /// A triangle mesh in object space as the kernels read it. Owns nothing: a program may map the arrays from a
 /// file. All of them are plain numbers without padding.
+///
+/// `triangles` holds ten words for each triangle, in the order of the hierarchy's leaves; a leaf with n
+/// triangles has n x coordinates of first corners, n y, n z, those of the second and third corners, and n
+/// numbers that the triangles have in the source. So the triangles of a leaf fill lanes by plain loads, and
+/// nothing is padded but the end, by `triangle_padding` words. Corners are seen counter-clockwise from the
+/// front.
 struct MeshData {
-    const float* positions = nullptr; ///< x y z each
-    const float* normals = nullptr;   ///< x y z each, or null: flat
-    const std::uint32_t* normal_indices =
-        nullptr;                             ///< 3 per triangle, by MeshTriangle::id; null where normals is
-    const MeshTriangle* triangles = nullptr; ///< in the order of the hierarchy's leaves
     const BvhNode* nodes = nullptr;
-    std::uint32_t position_count = 0;
-    std::uint32_t normal_count = 0;
-    std::uint32_t triangle_count = 0;
+    const float* triangles = nullptr;
+    const float* normals = nullptr;                ///< x y z each, or null: flat
+    const std::uint32_t* normal_indices = nullptr; ///< 3 per triangle, by its number in the source
     std::uint32_t node_count = 0;
+    std::uint32_t triangle_count = 0;
+    std::uint32_t normal_count = 0;
+    float min[3] = {0, 0, 0}; ///< of all triangles, if there are any
+    float max[3] = {0, 0, 0};
 };
+
+inline constexpr std::size_t words_per_triangle = 10;
+inline constexpr std::size_t triangle_padding = 16;
+
+/// A triangle's place in a mesh, as ShapeHit::part has it.
+struct TrianglePlace {
+    std::uint32_t first; ///< of its leaf
+    std::uint32_t count; ///< of its leaf
+    std::uint32_t which; ///< in its leaf
+};
+inline constexpr std::uint32_t mesh_most_triangles = 1U << 28;
+
+constexpr std::uint32_t part_of(const TrianglePlace& place) {
+    return place.first << 4 | place.which << 2 | (place.count - 1);
+}
+constexpr TrianglePlace place_of(std::uint32_t part) {
+    return {part >> 4, (part & 3U) + 1, part >> 2 & 3U};
+}
+
+/// Word `component` (0..8 the corners, 9 the number) of a triangle.
+inline const float* triangle_word(const MeshData& mesh, const TrianglePlace& place, std::uint32_t component) {
+    return mesh.triangles + words_per_triangle * place.first + component * place.count + place.which;
+}
+inline std::uint32_t triangle_id(const MeshData& mesh, const TrianglePlace& place) {
+    return std::bit_cast<std::uint32_t>(*triangle_word(mesh, place, 9));
+}
 
 /// The owner behind a MeshData that was built in this process (build_mesh in accel/build.h).
 struct MeshStorage {
-    std::vector<float> positions;
+    std::vector<BvhNode> nodes;
+    std::vector<float> triangles;
     std::vector<float> normals;
     std::vector<std::uint32_t> normal_indices;
-    std::vector<MeshTriangle> triangles;
-    std::vector<BvhNode> nodes;
+    float min[3] = {0, 0, 0};
+    float max[3] = {0, 0, 0};
 
     MeshData data() const {
         const bool smooth = !normals.empty();
-        return {positions.data(),
+        const std::size_t words = triangles.size() - (triangles.empty() ? 0 : triangle_padding);
+        return {nodes.data(),
+                triangles.data(),
                 smooth ? normals.data() : nullptr,
                 smooth ? normal_indices.data() : nullptr,
-                triangles.data(),
-                nodes.data(),
-                static_cast<std::uint32_t>(positions.size() / 3),
+                static_cast<std::uint32_t>(nodes.size()),
+                static_cast<std::uint32_t>(words / words_per_triangle),
                 static_cast<std::uint32_t>(normals.size() / 3),
-                static_cast<std::uint32_t>(triangles.size()),
-                static_cast<std::uint32_t>(nodes.size())};
+                {min[0], min[1], min[2]},
+                {max[0], max[1], max[2]}};
     }
 };
 

@@ -1,8 +1,13 @@
 #pragma once
 
+#include "runtime/accel/beam.h"
 #include "runtime/accel/bvh.h"
 #include "runtime/mesh_data.h"
 #include "runtime/shapes/triangle_test.h"
+
+#include <array>
+#include <optional>
+#include <span>
 
 namespace scc::runtime {
 
@@ -12,74 +17,328 @@ Vec3<R> read_vector(const float* numbers, std::uint32_t index) {
     return {R(v[0]), R(v[1]), R(v[2])};
 }
 
+inline Bounds<float> bounds_of(const MeshData& mesh) {
+    return {{mesh.min[0], mesh.min[1], mesh.min[2]}, {mesh.max[0], mesh.max[1], mesh.max[2]}};
+}
+
+/// The corners of triangles of one leaf, from `place` on: as many as L has lanes, of which those beyond the
+/// leaf have any numbers.
 template <class L>
-Corners<L> corners_of(const MeshData& mesh, const MeshTriangle& triangle) {
-    using R = RealOf<L>;
-    return {lanes<L>(read_vector<R>(mesh.positions, triangle.corners[0])),
-            lanes<L>(read_vector<R>(mesh.positions, triangle.corners[1])),
-            lanes<L>(read_vector<R>(mesh.positions, triangle.corners[2]))};
+Corners<L> corners_at(const MeshData& mesh, const TrianglePlace& place) {
+    const auto at = [&](std::uint32_t component) {
+        return load_lanes<L>(triangle_word(mesh, place, component));
+    };
+    return {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}, {at(6), at(7), at(8)}};
 }
 
 /// t, moved to where the ray is in the triangle's box if rounding put it outside (a ray along the triangle).
 /// So no box around it begins after the hit, and the hierarchy finds the same hit as a test of every
-/// triangle.
-template <class L>
-L intersect_in_box(const Corners<L>& corners, const Shear<L>& shear, const SlabRay<L>& slabs,
-                   const Ray<L>& ray) {
-    const L t = intersect_triangle(corners, shear, ray);
-    const MaskOf<L> met = (t >= ray.t_min) & (t < infinity<L>());
-    if (none(met)) {
-        return infinity<L>();
-    }
-    const Vec3<L> min = minimum(minimum(corners.a, corners.b), corners.c);
-    const Vec3<L> max = maximum(maximum(corners.a, corners.b), corners.c);
-    const L low[3] = {min.x, min.y, min.z}, high[3] = {max.x, max.y, max.z};
+/// triangle. The lanes are those of the rays or, for a single ray, of the triangles.
+template <class L, class V, class RayLanes>
+L put_into_box(const L& t, const Corners<V>& corners, const SlabRay<RayLanes>& slabs, const L& t_min,
+               MaskOf<L>& met) {
+    const Vec3<V> min = minimum(minimum(corners.a, corners.b), corners.c);
+    const Vec3<V> max = maximum(maximum(corners.a, corners.b), corners.c);
+    const L low[3] = {L(min.x), L(min.y), L(min.z)}, high[3] = {L(max.x), L(max.y), L(max.z)};
     const auto range = slabs.range(low, high);
     const L inside = minimum(maximum(t, range.near), range.far);
-    return choose(met & (range.near <= range.far) & (inside >= ray.t_min), inside, infinity<L>());
-}
-
-/// The part is the triangle's place in mesh.triangles. With AnyHit: some hit in the range.
-template <bool AnyHit, class L>
-ShapeHit<L> intersect_mesh(const MeshData& mesh, const Ray<L>& ray) {
-    if (mesh.node_count == 0) {
-        return {};
-    }
-    using Index = IndexOf<L>;
-    const SlabRay<L> slabs(ray, bounds_of<RealOf<L>>(mesh.nodes[0]));
-    const Shear<L> shear(ray.dir);
-    ShapeHit<L> best;
-    Index best_id(~0U);
-    L nearest = ray.t_max;
-    traverse(mesh.nodes, slabs, ray.t_min, nearest, [&](std::uint32_t first, std::uint32_t count) {
-        for (std::uint32_t i = first; i < first + count; ++i) {
-            const MeshTriangle& triangle = mesh.triangles[i];
-            const L t = intersect_in_box(corners_of<L>(mesh, triangle), shear, slabs, ray);
-            const MaskOf<L> found =
-                (t < nearest) | ((t == nearest) & (t < infinity<L>()) & (Index(triangle.id) < best_id));
-            if (none(found)) {
-                continue;
-            }
-            best.t = choose(found, t, best.t);
-            best.part = choose(found, Index(i), best.part);
-            best_id = choose(found, Index(triangle.id), best_id);
-            nearest = choose(found, AnyHit ? -infinity<L>() : t, nearest);
-            if (AnyHit && none(nearest >= ray.t_min)) {
-                return true;
-            }
-        }
-        return false;
-    });
-    return best;
+    met = met & (t >= t_min) & (t < infinity<L>()) & (range.near <= range.far) & (inside >= t_min);
+    return inside;
 }
 
 namespace detail {
 
-/// Three vectors of each lane's triangle; zeros where not `needed`. `indices_of` gives a triangle's three
-/// indices.
-template <class L, class IndicesOf>
-Corners<L> gather_corners(const MeshData& mesh, const float* numbers, const IndexOf<L>& part,
-                          const MaskOf<L>& needed, IndicesOf&& indices_of) {
+/// As many triangles of a leaf as are tested against a ray at once.
+template <class R>
+struct TriangleLanes {
+    using type = Pack<R, bvh_max_leaf>;
+};
+template <class R>
+requires(sizeof(R) > sizeof(double)) struct TriangleLanes<R> {
+    using type = R;
+};
+
+/// One ray's search.
+template <bool AnyHit, class R>
+class RayInMesh {
+public:
+    using T = typename TriangleLanes<R>::type;
+
+    RayInMesh(const MeshData& mesh, const Ray<R>& ray)
+        : mesh_(mesh), ray_(ray), slabs_(ray, bounds_in<R>(mesh)),
+          dir_size_(largest_component(absolute(ray.dir))), nearest_(ray.t_max) {}
+
+    ShapeHit<R> run() {
+        traverse_ray(mesh_.nodes, slabs_, ray_.t_min, nearest_,
+                     [&](std::uint32_t first, std::uint32_t count) {
+                         for (std::uint32_t i = 0; i < count; i += lane_count<T>) {
+                             test({first, count, i});
+                         }
+                         return AnyHit && best_.t < infinity<R>();
+                     });
+        return best_;
+    }
+
+private:
+    template <class Number>
+    static Bounds<Number> bounds_in(const MeshData& mesh) {
+        const Bounds<float> box = bounds_of(mesh);
+        return {lanes<Number>(box.min), lanes<Number>(box.max)};
+    }
+
+    void test(const TrianglePlace& place) {
+        const Corners<T> corners = corners_at<T>(mesh_, place);
+        const Vec3<T> org = lanes<T>(ray_.org), dir = lanes<T>(ray_.dir);
+        const Corners<T> relative = relative_to(org, corners);
+        const EdgeFunctions<T> edges(TriangleView<T>(relative), dir, T(dir_size_));
+        MaskOf<T> met = edges.may_pass();
+        const unsigned present = (1U << (place.count - place.which)) - 1;
+        if ((bits(met) & present) == 0) {
+            return;
+        }
+        met = edges.pass(met, dir, [&](int i) { return lane(relative, i); });
+        const T t = put_into_box(distance_to_plane(corners, org, dir), corners, slabs_, T(ray_.t_min), met);
+        for (unsigned left = bits(met) & present; left != 0; left &= left - 1) {
+            const int i = __builtin_ctz(left);
+            keep(lane(t, i), {place.first, place.count, place.which + static_cast<std::uint32_t>(i)});
+        }
+    }
+
+    void keep(R t, const TrianglePlace& place) {
+        if (!(t <= nearest_)) {
+            return;
+        }
+        const std::uint32_t id = triangle_id(mesh_, place);
+        if (t < nearest_ || id < best_id_) {
+            nearest_ = best_.t = t;
+            best_.part = part_of(place);
+            best_id_ = id;
+        }
+    }
+
+    const MeshData& mesh_;
+    const Ray<R>& ray_;
+    SlabRay<R> slabs_;
+    R dir_size_;
+    R nearest_;
+    ShapeHit<R> best_;
+    std::uint32_t best_id_ = ~0U;
+};
+
+/// The search of packs that run alike.
+template <bool AnyHit, class L>
+class BeamInMesh {
+public:
+    using R = RealOf<L>;
+    using Index = IndexOf<L>;
+
+    BeamInMesh(const MeshData& mesh, std::span<Ray<L>> rays, Apex apex, std::span<ShapeHit<L>> hits,
+               BeamSet<L>& beams)
+        : mesh_(mesh), rays_(rays), apex_(apex), hits_(hits), beams_(beams) {
+        const Bounds<float> box = bounds_of(mesh);
+        const Bounds<R> root{lanes<R>(box.min), lanes<R>(box.max)};
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            packs_[i].slabs.emplace(rays[i], root);
+            packs_[i].dir_size = largest_component(absolute(rays[i].dir));
+        }
+        point_ = beams.apex_point(rays);
+        reach_ = static_cast<R>(beams.scale());
+    }
+
+    void run() {
+        traverse_beams(mesh_.nodes, beams_, [&](unsigned packs, std::uint32_t first, std::uint32_t count) {
+            if (apex_ == Apex::origin) {
+                test_from_apex(packs, first, count);
+            } else if (apex_ == Apex::end) {
+                test_to_apex(packs, first, count);
+            } else {
+                test_from_anywhere(packs, first, count);
+            }
+            return false;
+        });
+    }
+
+private:
+    struct Pack {
+        std::optional<SlabRay<L>> slabs;
+        L dir_size;
+        Index best_id{~0U};
+    };
+
+    using T = runtime::Pack<R, bvh_max_leaf>;
+
+    /// The leaf's triangles as seen from one point, one by one; what is beyond them in the leaf's lanes no
+    /// ray passes through.
+    class Views {
+    public:
+        Views(const TriangleView<T>& views, std::uint32_t count) {
+            const T* parts[10] = {&views.a.x, &views.a.y, &views.a.z, &views.b.x, &views.b.y,
+                                  &views.b.z, &views.c.x, &views.c.y, &views.c.z, &views.tolerance};
+            for (std::size_t i = 0; i < 10; ++i) {
+                store_lanes(numbers_[i], *parts[i]);
+            }
+            for (std::uint32_t i = count; i < bvh_max_leaf; ++i) {
+                numbers_[9][i] = -infinity<R>();
+            }
+        }
+        TriangleView<R> operator[](std::uint32_t i) const {
+            TriangleView<R> view;
+            view.a = {numbers_[0][i], numbers_[1][i], numbers_[2][i]};
+            view.b = {numbers_[3][i], numbers_[4][i], numbers_[5][i]};
+            view.c = {numbers_[6][i], numbers_[7][i], numbers_[8][i]};
+            view.tolerance = numbers_[9][i];
+            return view;
+        }
+
+    private:
+        alignas(64) R numbers_[10][bvh_max_leaf];
+    };
+
+    /// f(pack, place, edge functions, lanes that may pass) for the packs and the leaf's triangles.
+    template <class F>
+    void for_each_candidate(const Views& views, unsigned packs, std::uint32_t first, std::uint32_t count,
+                            F&& f) {
+        for (; packs != 0; packs &= packs - 1) {
+            const auto pack = static_cast<std::size_t>(__builtin_ctz(packs));
+            const Vec3<L>& dir = rays_[pack].dir;
+            const L& dir_size = packs_[pack].dir_size;
+            for (std::uint32_t i = 0; i < count; i += 2) { // two at a time, since each takes long to decide
+                const EdgeFunctions<L> one(views[i], dir, dir_size), other(views[i + 1], dir, dir_size);
+                const MaskOf<L> by_one = one.may_pass(), by_other = other.may_pass();
+                if (none(by_one | by_other)) {
+                    continue;
+                }
+                if (any(by_one)) {
+                    f(pack, TrianglePlace{first, count, i}, one, by_one);
+                }
+                if (any(by_other)) {
+                    f(pack, TrianglePlace{first, count, i + 1}, other, by_other);
+                }
+            }
+        }
+    }
+
+    /// What rays from one point see of a leaf's triangles is calculated once for all rays, for all triangles
+    /// at once.
+    void test_from_apex(unsigned packs, std::uint32_t first, std::uint32_t count) {
+        const Corners<T> relative = relative_to(lanes<T>(point_), corners_at<T>(mesh_, {first, count, 0}));
+        const Views views(TriangleView<T>(relative), count);
+        for_each_candidate(views, packs, first, count,
+                           [&](std::size_t pack, const TrianglePlace& place, const EdgeFunctions<L>& edges,
+                               const MaskOf<L>& candidates) {
+                               const Corners<R> corners = corners_at<R>(mesh_, place);
+                               const Vec3<L>& dir = rays_[pack].dir;
+                               const MaskOf<L> met = edges.pass(
+                                   candidates, dir, [&](int) { return relative_to(point_, corners); });
+                               keep(pack, place, corners, distance_to_plane(corners, point_, dir), met);
+                           });
+    }
+
+    /// Rays to one point: what they see of the triangles from there tells most that they miss.
+    void test_to_apex(unsigned packs, std::uint32_t first, std::uint32_t count) {
+        TriangleView<T> seen(relative_to(lanes<T>(point_), corners_at<T>(mesh_, {first, count, 0})));
+        seen.tolerance = loose_tolerance(seen.tolerance, first, count);
+        for_each_candidate(Views(seen, count), packs, first, count,
+                           [&](std::size_t pack, const TrianglePlace& place, const EdgeFunctions<L>&,
+                               const MaskOf<L>&) { test(pack, place); });
+    }
+
+    /// Enough for all that the corners as seen from the rays' origins may differ from those as seen from the
+    /// common end.
+    T loose_tolerance(const T& tolerance, std::uint32_t first, std::uint32_t count) const {
+        const Corners<T> corners = corners_at<T>(mesh_, {first, count, 0});
+        const Corners<T> to = relative_to(lanes<T>(point_), corners);
+        const T distance =
+            largest_component(maximum(maximum(absolute(to.a), absolute(to.b)), absolute(to.c)));
+        return tolerance + 128 * roundoff<T>() * (distance + T(reach_)) * (distance + T(reach_));
+    }
+
+    void test_from_anywhere(unsigned packs, std::uint32_t first, std::uint32_t count) {
+        for (; packs != 0; packs &= packs - 1) {
+            for (std::uint32_t i = 0; i < count; ++i) {
+                test(static_cast<std::size_t>(__builtin_ctz(packs)), {first, count, i});
+            }
+        }
+    }
+
+    void test(std::size_t pack, const TrianglePlace& place) {
+        const Ray<L>& ray = rays_[pack];
+        const Corners<R> one = corners_at<R>(mesh_, place);
+        const Corners<L> corners{lanes<L>(one.a), lanes<L>(one.b), lanes<L>(one.c)};
+        const Corners<L> relative = relative_to(ray.org, corners);
+        const EdgeFunctions<L> edges(TriangleView<L>(relative), ray.dir, packs_[pack].dir_size);
+        const MaskOf<L> candidates = edges.may_pass() & is_active(ray);
+        if (any(candidates)) {
+            const MaskOf<L> met = edges.pass(candidates, ray.dir, [&](int i) { return lane(relative, i); });
+            keep(pack, place, one, distance_to_plane(corners, ray.org, ray.dir), met);
+        }
+    }
+
+    void keep(std::size_t pack, const TrianglePlace& place, const Corners<R>& corners, const L& distance,
+              MaskOf<L> met) {
+        Ray<L>& ray = rays_[pack];
+        const L t = put_into_box(distance, corners, *packs_[pack].slabs, ray.t_min, met);
+        const Index id(triangle_id(mesh_, place));
+        Index& best_id = packs_[pack].best_id;
+        const MaskOf<L> found = met & ((t < ray.t_max) | ((t == ray.t_max) & (id < best_id)));
+        if (none(found)) {
+            return;
+        }
+        hits_[pack].t = choose(found, t, hits_[pack].t);
+        hits_[pack].part = choose(found, Index(part_of(place)), hits_[pack].part);
+        best_id = choose(found, id, best_id);
+        ray.t_max = choose(found, AnyHit ? -infinity<L>() : t, ray.t_max);
+        beams_.shorten(static_cast<int>(pack), ray);
+    }
+
+    const MeshData& mesh_;
+    std::span<Ray<L>> rays_;
+    Apex apex_;
+    std::span<ShapeHit<L>> hits_;
+    BeamSet<L>& beams_;
+    std::array<Pack, most_packs> packs_;
+    Vec3<R> point_; ///< the apex
+    R reach_;       ///< no coordinate of the mesh or of a ray is larger
+};
+
+} // namespace detail
+
+/// The nearest hit of each active ray, or with AnyHit some hit. A hit's part is the triangle's place. The
+/// rays' t_max may end anywhere; hits[i] must be as initialised.
+template <bool AnyHit, class L>
+void intersect_mesh(const MeshData& mesh, std::span<Ray<L>> rays, Apex apex, std::span<ShapeHit<L>> hits) {
+    if (mesh.node_count == 0 || rays.empty()) {
+        return;
+    }
+    if constexpr (lane_count<L> == 1) {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            if (is_active(rays[i])) {
+                hits[i] = detail::RayInMesh<AnyHit, L>(mesh, rays[i]).run();
+            }
+        }
+    } else {
+        BeamSet<L> beams;
+        if (beams.gather(rays, apex, bounds_of(mesh))) {
+            detail::BeamInMesh<AnyHit, L>(mesh, rays, apex, hits, beams).run();
+        } else if (rays.size() > 1) {
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                intersect_mesh<AnyHit>(mesh, rays.subspan(i, 1), apex, hits.subspan(i, 1));
+            }
+        } else {
+            for_each_lane(rays[0], [&](int i, const Ray<RealOf<L>>& ray) {
+                const auto hit = detail::RayInMesh<AnyHit, RealOf<L>>(mesh, ray).run();
+                set_lane(hits[0].t, i, hit.t);
+                set_lane(hits[0].part, i, hit.part);
+            });
+        }
+    }
+}
+
+namespace detail {
+
+/// Three vectors of each lane's triangle; zeros where not `needed`. `read` gives those of one part.
+template <class L, class Read>
+Corners<L> gather_corners(const IndexOf<L>& part, const MaskOf<L>& needed, Read&& read) {
     using R = RealOf<L>;
     Corners<L> result{};
     const auto put = [](Vec3<L>& to, int i, const Vec3<R>& from) {
@@ -89,10 +348,10 @@ Corners<L> gather_corners(const MeshData& mesh, const float* numbers, const Inde
     };
     for (unsigned left = bits(needed); left != 0; left &= left - 1) {
         const int i = __builtin_ctz(left);
-        const std::uint32_t* index = indices_of(mesh.triangles[lane(part, i)]);
-        put(result.a, i, read_vector<R>(numbers, index[0]));
-        put(result.b, i, read_vector<R>(numbers, index[1]));
-        put(result.c, i, read_vector<R>(numbers, index[2]));
+        const Corners<R> one = read(place_of(lane(part, i)));
+        put(result.a, i, one.a);
+        put(result.b, i, one.b);
+        put(result.c, i, one.c);
     }
     return result;
 }
@@ -103,16 +362,20 @@ Corners<L> gather_corners(const MeshData& mesh, const float* numbers, const Inde
 template <bool SmoothNormals, class L>
 Surface<L> mesh_surface(const MeshData& mesh, const Ray<L>& ray, const ShapeHit<L>& hit,
                         const MaskOf<L>& needed) {
-    const Corners<L> corners =
-        detail::gather_corners<L>(mesh, mesh.positions, hit.part, needed,
-                                  [](const MeshTriangle& triangle) { return triangle.corners; });
-    const Vec3<L> weights = barycentric(corners, Shear<L>(ray.dir), ray.org);
+    using R = RealOf<L>;
+    const Corners<L> corners = detail::gather_corners<L>(
+        hit.part, needed, [&](const TrianglePlace& place) { return corners_at<R>(mesh, place); });
+    const Vec3<L> weights = barycentric(corners, ray);
     Surface<L> result = triangle_surface(corners, weights);
     if constexpr (SmoothNormals) {
         if (mesh.normals != nullptr) {
-            const Corners<L> normals = detail::gather_corners<L>(
-                mesh, mesh.normals, hit.part, needed, [&](const MeshTriangle& triangle) {
-                    return mesh.normal_indices + std::size_t{3} * triangle.id;
+            const Corners<L> normals =
+                detail::gather_corners<L>(hit.part, needed, [&](const TrianglePlace& place) {
+                    const std::uint32_t* index =
+                        mesh.normal_indices + std::size_t{3} * triangle_id(mesh, place);
+                    return Corners<R>{read_vector<R>(mesh.normals, index[0]),
+                                      read_vector<R>(mesh.normals, index[1]),
+                                      read_vector<R>(mesh.normals, index[2])};
                 });
             result.shading_normal = interpolate_normal(normals, weights, result.normal);
         }

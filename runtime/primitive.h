@@ -49,15 +49,6 @@ constexpr Surface<L> transform_surface(const Affine<R>& world_from_object, const
 
 namespace detail {
 
-template <bool AnyHit, class S, class Shape, class L>
-ShapeHit<L> intersect_shape(const S& scene, const Shape& shape, const Ray<L>& ray) {
-    if constexpr (is_mesh<Shape>) {
-        return intersect_mesh<AnyHit>(scene.meshes[shape.mesh], ray);
-    } else {
-        return shape.intersect(ray);
-    }
-}
-
 template <class S, class Shape, class L>
 Surface<L> shape_surface(const S& scene, const Shape& shape, const Ray<L>& ray, const ShapeHit<L>& hit,
                          [[maybe_unused]] const MaskOf<L>& needed) {
@@ -72,7 +63,9 @@ template <class S, class Shape>
 Bounds<typename S::Real> shape_bounds(const S& scene, const Shape& shape) {
     if constexpr (is_mesh<Shape>) {
         const MeshData& mesh = scene.meshes[shape.mesh];
-        return mesh.node_count == 0 ? Bounds<typename S::Real>{} : bounds_of<typename S::Real>(mesh.nodes[0]);
+        using R = typename S::Real;
+        const Bounds<float> box = mesh.node_count == 0 ? Bounds<float>{} : bounds_of(mesh);
+        return {lanes<R>(box.min), lanes<R>(box.max)};
     } else {
         return shape.bounds();
     }
@@ -80,14 +73,14 @@ Bounds<typename S::Real> shape_bounds(const S& scene, const Shape& shape) {
 
 } // namespace detail
 
-template <bool AnyHit, class S, class Shape, class L>
-ShapeHit<L> intersect(const S& scene, const Bare<Shape>& primitive, const Ray<L>& ray) {
-    return detail::intersect_shape<AnyHit>(scene, primitive.shape, ray);
+/// The rays as the primitive's shape sees them.
+template <class Shape, class L>
+const Ray<L>& to_object(const Bare<Shape>&, const Ray<L>& ray) {
+    return ray;
 }
-template <bool AnyHit, class S, class Shape, class R, class L>
-ShapeHit<L> intersect(const S& scene, const Placed<Shape, R>& primitive, const Ray<L>& ray) {
-    return detail::intersect_shape<AnyHit>(scene, primitive.shape,
-                                           transform_ray(primitive.object_from_world, ray));
+template <class Shape, class R, class L>
+Ray<L> to_object(const Placed<Shape, R>& primitive, const Ray<L>& ray) {
+    return transform_ray(primitive.object_from_world, ray);
 }
 
 /// The surface where the lanes in `needed` have hit this primitive; the others get anything.

@@ -1,7 +1,11 @@
 #pragma once
 
+#include "runtime/accel/beam.h"
 #include "runtime/primitive.h"
 
+#include <array>
+#include <span>
+#include <type_traits>
 #include <utility>
 
 /// Closest and any hit of a ray in a scene (L11, L14).
@@ -16,6 +20,22 @@ struct Hit {
     IndexOf<L> index{0U}; ///< in the table of its kind
     IndexOf<L> id{~0U};   ///< Tag::id
 };
+
+template <class L>
+Hit<RealOf<L>> lane(const Hit<L>& hit, int i) {
+    return {{lane(hit.shape.t, i), lane(hit.shape.part, i)},
+            lane(hit.kind, i),
+            lane(hit.index, i),
+            lane(hit.id, i)};
+}
+template <class L>
+void set_lane(Hit<L>& hit, int i, const Hit<RealOf<L>>& value) {
+    set_lane(hit.shape.t, i, value.shape.t);
+    set_lane(hit.shape.part, i, value.shape.part);
+    set_lane(hit.kind, i, value.kind);
+    set_lane(hit.index, i, value.index);
+    set_lane(hit.id, i, value.id);
+}
 
 namespace detail {
 
@@ -46,6 +66,14 @@ bool any_of_table(const Table& table, F&& f) {
     }
 }
 
+template <class S, std::uint32_t... kind>
+constexpr bool uses_mesh_among(std::integer_sequence<std::uint32_t, kind...>) {
+    return ((uses_kind(S::traits, kind) && is_mesh<ShapeOfKind<typename S::Real, kind>>) || ...);
+}
+template <class S>
+inline constexpr bool
+    uses_mesh = uses_mesh_among<S>(std::make_integer_sequence<std::uint32_t, primitive_kinds>{});
+
 /// f.operator()<kind>() for each kind that the scene can contain, until it returns true; whether it did.
 template <class S, class F>
 bool any_of_kinds(F&& f) {
@@ -62,16 +90,28 @@ bool any_of_kinds(F&& f) {
     (std::make_integer_sequence<std::uint32_t, primitive_kinds>{});
 }
 
-/// The search of rays through a scene. Of hits at equal distance the smaller Tag::id counts, so the order of
-/// the tests does not matter.
-template <bool AnyHit, class S, class L>
+/// The search of up to N packs of rays through a scene. Of hits at equal distance the smaller Tag::id counts,
+/// so the order of the tests does not matter. What was found so far is in the results and in the rays' t_max.
+template <bool AnyHit, class S, class L, int N>
 class Search {
 public:
     using R = typename S::Real;
+    using Result = std::conditional_t<AnyHit, MaskOf<L>, Hit<L>>;
 
-    Search(const S& scene, const Ray<L>& ray) : scene_(scene), ray_(ray) {}
+    Search(const S& scene, std::span<Ray<L>> rays, Apex apex, std::span<Result> results)
+        : scene_(scene), rays_(rays), apex_(apex), results_(results) {
+        if constexpr (N > 1) {
+            live_ = 0;
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                live_ |= (any(is_active(rays[i])) ? 1U : 0U) << i;
+            }
+        }
+    }
 
     void run() {
+        if (live_ == 0) {
+            return;
+        }
         if constexpr (S::traits.accelerator) {
             if (!scene_.accelerator.nodes.empty()) {
                 const bool done = any_of_kinds<S>([&]<std::uint32_t kind>() {
@@ -90,91 +130,203 @@ public:
         any_of_kinds<S>([&]<std::uint32_t kind>() { return test_table<kind>(); });
     }
 
-    const Hit<L>& hit() const { return hit_; }
-    const MaskOf<L>& blocked() const { return blocked_; }
-
-private:
-    template <std::uint32_t kind>
-    bool test_table() {
-        const auto& table = scene_.primitives(Of<PrimitiveOfKind<R, kind>>{});
-        return any_of_table(
-            table, [&](const auto& primitive, std::uint32_t index) { return test<kind>(primitive, index); });
-    }
-
-    /// Whether the search is over.
-    template <std::uint32_t kind>
-    bool test(const PrimitiveOfKind<R, kind>& primitive, [[maybe_unused]] std::uint32_t index) {
-        const ShapeHit<L> found = intersect<AnyHit>(scene_, primitive, ray_);
-        if constexpr (AnyHit) {
-            const MaskOf<L> met = found.t < infinity<L>();
-            blocked_ = blocked_ | met;
-            ray_.t_max = choose(met, -infinity<L>(), ray_.t_max);
-            return none(ray_.t_max >= ray_.t_min);
+    void test_hierarchy() {
+        const Accelerator& accelerator = scene_.accelerator;
+        if constexpr (lane_count<L> == 1) {
+            const Bounds<R> root{lanes<R>(accelerator.box.min), lanes<R>(accelerator.box.max)};
+            const SlabRay<R> slabs(rays_[0], root);
+            traverse_ray(
+                accelerator.nodes.data(), slabs, rays_[0].t_min, rays_[0].t_max,
+                [&](std::uint32_t first, std::uint32_t count) { return test_leaf(first, count, 1); });
         } else {
-            using Index = IndexOf<L>;
-            const Index id(primitive.tag.id);
-            const MaskOf<L> nearer = (found.t < ray_.t_max) |
-                                     ((found.t == ray_.t_max) & (found.t < infinity<L>()) & (id < hit_.id));
-            if (any(nearer)) {
-                ray_.t_max = choose(nearer, found.t, ray_.t_max);
-                hit_.shape.t = choose(nearer, found.t, hit_.shape.t);
-                hit_.shape.part = choose(nearer, found.part, hit_.shape.part);
-                hit_.kind = choose(nearer, Index(kind), hit_.kind);
-                hit_.index = choose(nearer, Index(index), hit_.index);
-                hit_.id = choose(nearer, id, hit_.id);
+            BeamSet<L> beams;
+            if (beams.gather(rays_, apex_, accelerator.box)) {
+                beams_ = &beams;
+                traverse_beams(accelerator.nodes.data(), beams,
+                               [&](unsigned packs, std::uint32_t first, std::uint32_t count) {
+                                   return test_leaf(first, count, packs);
+                               });
+            } else if constexpr (N > 1) {
+                for (unsigned left = live_; left != 0; left &= left - 1) {
+                    const auto i = static_cast<std::size_t>(__builtin_ctz(left));
+                    Search<AnyHit, S, L, 1>(scene_, rays_.subspan(i, 1), apex_, results_.subspan(i, 1))
+                        .test_hierarchy();
+                }
+            } else {
+                for_each_lane(rays_[0], [&](int i, Ray<R> ray) { test_hierarchy_with(ray, i); });
             }
-            return false;
         }
     }
 
-    void test_hierarchy() {
-        const Accelerator& accelerator = scene_.accelerator;
-        const SlabRay<L> slabs(ray_, bounds_of<R>(accelerator.nodes[0]));
-        traverse(accelerator.nodes.data(), slabs, ray_.t_min, ray_.t_max,
-                 [&](std::uint32_t first, std::uint32_t count) {
-                     for (std::uint32_t i = first; i < first + count; ++i) {
-                         if (test_reference(accelerator.primitives[i])) {
-                             return true;
-                         }
-                     }
-                     return false;
-                 });
+private:
+    /// One lane's ray by itself.
+    void test_hierarchy_with(Ray<R>& ray, int i) {
+        if constexpr (AnyHit) {
+            bool blocked = false;
+            Search<AnyHit, S, R, 1>(scene_, {&ray, 1}, Apex::none, {&blocked, 1}).test_hierarchy();
+            if (blocked) {
+                set_lane(rays_[0].t_max, i, -infinity<R>());
+                set_lane(results_[0], i, true);
+            }
+        } else {
+            Hit<R> hit = lane(results_[0], i);
+            Search<AnyHit, S, R, 1>(scene_, {&ray, 1}, Apex::none, {&hit, 1}).test_hierarchy();
+            set_lane(rays_[0].t_max, i, ray.t_max);
+            set_lane(results_[0], i, hit);
+        }
     }
 
-    bool test_reference(const PrimitiveRef& ref) {
+    template <std::uint32_t kind>
+    bool test_table() {
+        const auto& table = scene_.primitives(Of<PrimitiveOfKind<R, kind>>{});
+        return any_of_table(table, [&](const auto& primitive, std::uint32_t index) {
+            return test<kind>(primitive, index, live_);
+        });
+    }
+
+    bool test_leaf(std::uint32_t first, std::uint32_t count, unsigned packs) {
+        for (std::uint32_t i = first; i < first + count; ++i) {
+            if (test_reference(scene_.accelerator.primitives[i], packs)) {
+                return true;
+            }
+        }
+        return false;
+    }
+    bool test_reference(const PrimitiveRef& ref, unsigned packs) {
         return any_of_kinds<S>([&]<std::uint32_t kind>() {
             if constexpr (is_bounded<ShapeOfKind<R, kind>>) {
                 return kind == ref.kind &&
-                       test<kind>(scene_.primitives(Of<PrimitiveOfKind<R, kind>>{})[ref.index], ref.index);
+                       test<kind>(scene_.primitives(Of<PrimitiveOfKind<R, kind>>{})[ref.index], ref.index,
+                                  packs);
             } else {
                 return false;
             }
         });
     }
 
+    /// Whether the search is over.
+    template <std::uint32_t kind>
+    bool test(const PrimitiveOfKind<R, kind>& primitive, std::uint32_t index, unsigned packs) {
+        if constexpr (is_mesh<ShapeOfKind<R, kind>>) {
+            test_mesh<kind>(primitive, index, packs);
+        } else if constexpr (N == 1) {
+            keep<kind>(0, primitive.shape.intersect(to_object(primitive, rays_[0])), primitive.tag.id, index);
+        } else {
+            for (packs &= live_; packs != 0; packs &= packs - 1) {
+                const auto i = static_cast<std::size_t>(__builtin_ctz(packs));
+                keep<kind>(i, primitive.shape.intersect(to_object(primitive, rays_[i])), primitive.tag.id,
+                           index);
+            }
+        }
+        if constexpr (!AnyHit) {
+            return false;
+        } else if constexpr (N == 1) {
+            return none(is_active(rays_[0]));
+        } else {
+            return live_ == 0;
+        }
+    }
+
+    /// A mesh has a hierarchy of its own, for all packs together.
+    template <std::uint32_t kind>
+    void test_mesh(const PrimitiveOfKind<R, kind>& primitive, std::uint32_t index, unsigned packs) {
+        std::array<Ray<L>, N> rays;
+        std::array<ShapeHit<L>, N> found;
+        std::array<std::size_t, N> from;
+        std::size_t count = 0;
+        for (packs &= live_; packs != 0; packs &= packs - 1) {
+            from[count] = static_cast<std::size_t>(__builtin_ctz(packs));
+            rays[count] = to_object(primitive, rays_[from[count]]);
+            found[count++] = {};
+        }
+        intersect_mesh<AnyHit, L>(scene_.meshes[primitive.shape.mesh], {rays.data(), count}, apex_,
+                                  {found.data(), count});
+        for (std::size_t i = 0; i < count; ++i) {
+            keep<kind>(from[i], found[i], primitive.tag.id, index);
+        }
+    }
+
+    template <std::uint32_t kind>
+    void keep(std::size_t pack, const ShapeHit<L>& found, std::uint32_t tag_id,
+              [[maybe_unused]] std::uint32_t index) {
+        Ray<L>& ray = rays_[pack];
+        if constexpr (AnyHit) {
+            const MaskOf<L> met = found.t < infinity<L>();
+            if constexpr (N > 1) {
+                if (none(met)) {
+                    return;
+                }
+            }
+            results_[pack] = results_[pack] | met;
+            ray.t_max = choose(met, -infinity<L>(), ray.t_max);
+            if constexpr (N > 1) {
+                live_ &= ~((none(is_active(ray)) ? 1U : 0U) << pack);
+            }
+        } else {
+            using Index = IndexOf<L>;
+            Hit<L>& hit = results_[pack];
+            const Index id(tag_id);
+            const MaskOf<L> nearer =
+                (found.t < ray.t_max) | ((found.t == ray.t_max) & (found.t < infinity<L>()) & (id < hit.id));
+            if (none(nearer)) {
+                return;
+            }
+            ray.t_max = choose(nearer, found.t, ray.t_max);
+            hit.shape.t = choose(nearer, found.t, hit.shape.t);
+            hit.shape.part = choose(nearer, found.part, hit.shape.part);
+            hit.kind = choose(nearer, Index(kind), hit.kind);
+            hit.index = choose(nearer, Index(index), hit.index);
+            hit.id = choose(nearer, id, hit.id);
+        }
+        if constexpr (lane_count < L >> 1) {
+            if (beams_ != nullptr) {
+                beams_->shorten(static_cast<int>(pack), ray);
+            }
+        }
+    }
+
     const S& scene_;
-    Ray<L> ray_;
-    Hit<L> hit_;
-    MaskOf<L> blocked_{false};
+    std::span<Ray<L>> rays_;
+    Apex apex_;
+    std::span<Result> results_;
+    unsigned live_ = 1; ///< the packs with active rays, as bits
+    BeamSet<L>* beams_ = nullptr;
 };
 
 } // namespace detail
 
+/// Whether the rays of a scene go through a hierarchy, where many packs together cost less than each alone.
+template <class S>
+inline constexpr bool has_hierarchy = S::traits.accelerator || detail::uses_mesh<S>;
+
+/// The packs of one pixel block.
+template <class S, class L>
+inline constexpr int packs_together = has_hierarchy<S>&& lane_count<L> > 1 ? most_packs : 1;
+
 /// The nearest hit in each ray's range; of several at that distance the one with the smallest Tag::id. A lane
-/// with t_max < t_min takes no part.
+/// with t_max < t_min takes no part. At most N packs; the rays' t_max become the hits' distances.
+template <int N, SceneModel S, class L>
+void closest_hits(const S& scene, std::span<Ray<L>> rays, Apex apex, std::span<Hit<L>> hits) {
+    detail::Search<false, S, L, N>(scene, rays, apex, hits).run();
+}
 template <SceneModel S, class L>
-Hit<L> closest_hit(const S& scene, const Ray<L>& ray) {
-    detail::Search<false, S, L> search(scene, ray);
-    search.run();
-    return search.hit();
+Hit<L> closest_hit(const S& scene, Ray<L> ray) {
+    Hit<L> hit;
+    closest_hits<1, S, L>(scene, {&ray, 1}, Apex::none, {&hit, 1});
+    return hit;
 }
 
-/// Whether anything is in each ray's range.
+/// Adds to `blocked` whether anything is in each ray's range. At most N packs; the rays' t_max may become
+/// anything.
+template <int N, SceneModel S, class L>
+void any_hits(const S& scene, std::span<Ray<L>> rays, Apex apex, std::span<MaskOf<L>> blocked) {
+    detail::Search<true, S, L, N>(scene, rays, apex, blocked).run();
+}
 template <SceneModel S, class L>
-MaskOf<L> any_hit(const S& scene, const Ray<L>& ray) {
-    detail::Search<true, S, L> search(scene, ray);
-    search.run();
-    return search.blocked();
+MaskOf<L> any_hit(const S& scene, Ray<L> ray) {
+    MaskOf<L> blocked(false);
+    any_hits<1, S, L>(scene, {&ray, 1}, Apex::none, {&blocked, 1});
+    return blocked;
 }
 
 /// f(primitive, lanes) for each primitive that one of the lanes in `among` has hit, with those lanes.

@@ -6,6 +6,7 @@
 #include "runtime/shade.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <thread>
@@ -62,12 +63,18 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
     static constexpr std::chrono::milliseconds progress_interval{250};
-    static constexpr int block_width = lane_count<L> >= 8 ? 4 : lane_count<L> >= 2 ? 2 : 1;
-    static constexpr int block_height = lane_count<L> / block_width;
+    /// A pack is a block of samples, and so many packs are a block again.
+    static constexpr int pack_width = lane_count<L> >= 8 ? 4 : lane_count<L> >= 2 ? 2 : 1;
+    static constexpr int pack_height = lane_count<L> / pack_width;
+    static constexpr int packs = packs_together<S, L>;
+    static constexpr int packs_across = packs > 1 ? 4 : 1;
+    static constexpr int block_width = packs_across * pack_width;
+    static constexpr int block_height = packs / packs_across * pack_height;
+    static_assert(tile_size % block_width == 0 && tile_size % block_height == 0);
 
     template <class AfterTile>
     void draw_tiles(RayCounts& rays, AfterTile&& after_tile) {
-        const Shader<S, L> shader(scene_, request_.settings, rays);
+        BlockPainter painter(*this, rays);
         while (!stopped_) {
             const int tile = next_++;
             if (tile >= tiles_) {
@@ -76,7 +83,7 @@ private:
             const int x0 = tile % tiles_across_ * tile_size, y0 = tile / tiles_across_ * tile_size;
             for (int y = y0; y < std::min(y0 + tile_size, height_); y += block_height) {
                 for (int x = x0; x < std::min(x0 + tile_size, width_); x += block_width) {
-                    draw_block(shader, x, y, rays);
+                    painter.paint(x, y);
                 }
             }
             ++done_;
@@ -84,49 +91,120 @@ private:
         }
     }
 
-    /// Lane i is pixel (x + i % block_width, y + i / block_width); those outside the crop stay dark.
-    void draw_block(const Shader<S, L>& shader, int x, int y, RayCounts& rays) {
-        L column(0), row(0);
-        for (int i = 0; i < lane_count<L>; ++i) {
-            set_lane(column, i, static_cast<R>(request_.crop.x0 + x + i % block_width));
-            set_lane(row, i, static_cast<R>(request_.crop.y0 + y + i / block_width));
-        }
-        const MaskOf<L> inside =
-            (column < L(static_cast<R>(request_.crop.x1))) & (row < L(static_cast<R>(request_.crop.y1)));
-        const Rgb<L> color = pixel_colors(shader, column, row, inside, rays);
-        for (unsigned left = bits(inside); left != 0; left &= left - 1) {
-            const int i = __builtin_ctz(left);
-            float* pixel = image_.at(x + i % block_width, y + i / block_width);
-            // + 0 makes -0 positive, so that a term left out and a term of 0 give the same bits.
-            pixel[0] = static_cast<float>(lane(color.r, i)) + 0.0F;
-            pixel[1] = static_cast<float>(lane(color.g, i)) + 0.0F;
-            pixel[2] = static_cast<float>(lane(color.b, i)) + 0.0F;
-        }
-    }
-
-    /// The mean over the centres of n x n sub-pixels, row by row.
-    Rgb<L> pixel_colors(const Shader<S, L>& shader, const L& column, const L& row, const MaskOf<L>& inside,
-                        RayCounts& rays) const {
-        const int n = request_.settings.samples_per_axis;
-        Rgb<L> sum{L(0), L(0), L(0)};
-        for (int j = 0; j < n; ++j) {
-            for (int i = 0; i < n; ++i) {
-                sum = sum + shader.radiance(ray_through(column + sub_pixel(i), row + sub_pixel(j)), inside);
-                rays.primary += count_lanes(inside);
+    /// Draws block_width x block_height pixels, each with n x n samples at the centres of sub-pixels. Blocks
+    /// of neighbouring samples, not of pixels, are traced together: with n x n samples in a pixel these run
+    /// more alike, but n x n blocks have as many samples as a block of pixels has.
+    class BlockPainter {
+    public:
+        BlockPainter(const Renderer& renderer, RayCounts& rays)
+            : renderer_(renderer), shader_(renderer.scene_, renderer.request_.settings, rays), rays_(rays),
+              n_(renderer.request_.settings.samples_per_axis),
+              samples_across_(static_cast<std::size_t>(n_ * block_width)),
+              samples_(samples_across_ * static_cast<std::size_t>(n_ * block_height)) {
+            for (int first = 0; first < n_ * block_width; first += pack_width) {
+                columns_.push_back(positions(first, [](int lane) { return lane % pack_width; }));
+            }
+            for (int first = 0; first < n_ * block_height; first += pack_height) {
+                rows_.push_back(positions(first, [](int lane) { return lane / pack_width; }));
             }
         }
-        return sum / L(static_cast<R>(n * n));
-    }
-    L sub_pixel(int sample) const {
-        return L((static_cast<R>(sample) + R(0.5)) / static_cast<R>(request_.settings.samples_per_axis));
-    }
 
+        /// The pixels from (x, y) of the crop on; those outside the crop are left out.
+        void paint(int x, int y) {
+            const Crop& crop = renderer_.request_.crop;
+            for (int j = 0; j < n_ && y + j * block_height / n_ < renderer_.height_; ++j) {
+                for (int i = 0; i < n_ && x + i * block_width / n_ < renderer_.width_; ++i) {
+                    trace(crop.x0 + x, crop.y0 + y, i * block_width, j * block_height);
+                }
+            }
+            for (int r = 0; r < std::min(block_height, renderer_.height_ - y); ++r) {
+                for (int c = 0; c < std::min(block_width, renderer_.width_ - x); ++c) {
+                    store(c, r, renderer_.image_.at(x + c, y + r));
+                }
+            }
+        }
+
+    private:
+        /// Where a pack's samples are in one direction, in pixels of the block: whole ones, and the rest,
+        /// which is added last so that rounding does not depend on where the block begins.
+        struct Positions {
+            L pixel, within;
+            L from(int start) const { return (L(static_cast<R>(start)) + pixel) + within; }
+        };
+        template <class Offset>
+        Positions positions(int first, Offset&& offset) const {
+            Positions result{};
+            for (int lane = 0; lane < lane_count<L>; ++lane) {
+                const int sample = first + offset(lane);
+                set_lane(result.pixel, lane, static_cast<R>(sample / n_));
+                set_lane(result.within, lane, (static_cast<R>(sample % n_) + R(0.5)) / static_cast<R>(n_));
+            }
+            return result;
+        }
+
+        /// Samples one block, from (i, j) of the samples of the pixels at (x, y) of the picture.
+        void trace(int x, int y, int i, int j) {
+            const Crop& crop = renderer_.request_.crop;
+            std::array<Ray<L>, packs> rays;
+            std::array<MaskOf<L>, packs> inside;
+            std::array<Rgb<L>, packs> colors;
+            for (int p = 0; p < packs; ++p) {
+                const int pack_i = i + p % packs_across * pack_width,
+                          pack_j = j + p / packs_across * pack_height;
+                const L column = columns_[static_cast<std::size_t>(pack_i / pack_width)].from(x);
+                const L row = rows_[static_cast<std::size_t>(pack_j / pack_height)].from(y);
+                const auto pack = static_cast<std::size_t>(p);
+                inside[pack] = (column < L(static_cast<R>(crop.x1))) & (row < L(static_cast<R>(crop.y1)));
+                rays[pack] = renderer_.ray_through(column, row);
+                rays_.primary += count_lanes(inside[pack]);
+            }
+            const Apex apex = renderer_.projection() == Projection::perspective ? Apex::origin : Apex::none;
+            shader_.radiance(rays, apex, inside, colors);
+            for (int p = 0; p < packs; ++p) {
+                for (int k = 0; k < lane_count<L>; ++k) {
+                    const Rgb<L>& color = colors[static_cast<std::size_t>(p)];
+                    sample_at(i + p % packs_across * pack_width + k % pack_width,
+                              j + p / packs_across * pack_height +
+                                  k / pack_width) = {lane(color.r, k), lane(color.g, k), lane(color.b, k)};
+                }
+            }
+        }
+        Rgb<R>& sample_at(int i, int j) {
+            return samples_[static_cast<std::size_t>(j) * samples_across_ + static_cast<std::size_t>(i)];
+        }
+
+        /// The mean over a pixel's samples, row by row.
+        void store(int column, int row, float* pixel) {
+            Rgb<R> sum{};
+            for (int j = 0; j < n_; ++j) {
+                for (int i = 0; i < n_; ++i) {
+                    sum = sum + sample_at(column * n_ + i, row * n_ + j);
+                }
+            }
+            const Rgb<R> mean = sum / static_cast<R>(n_ * n_);
+            // + 0 makes -0 positive, so that a term left out and a term of 0 give the same bits.
+            pixel[0] = static_cast<float>(mean.r) + 0.0F;
+            pixel[1] = static_cast<float>(mean.g) + 0.0F;
+            pixel[2] = static_cast<float>(mean.b) + 0.0F;
+        }
+
+        const Renderer& renderer_;
+        const Shader<S, L> shader_;
+        RayCounts& rays_;
+        int n_;
+        std::vector<Positions> columns_, rows_; ///< of the packs across and down
+        std::size_t samples_across_;
+        std::vector<Rgb<R>> samples_;
+    };
+
+    Projection projection() const {
+        return !S::traits.orthographic  ? Projection::perspective
+               : !S::traits.perspective ? Projection::orthographic
+                                        : scene_.camera.projection;
+    }
     Ray<L> ray_through(const L& column, const L& row) const {
-        const Camera<R>& camera = scene_.camera;
-        const Projection projection = !S::traits.orthographic  ? Projection::perspective
-                                      : !S::traits.perspective ? Projection::orthographic
-                                                               : camera.projection;
-        return camera_ray(camera, projection, column, row, request_.settings.width, request_.settings.height);
+        return camera_ray(scene_.camera, projection(), column, row, request_.settings.width,
+                          request_.settings.height);
     }
 
     void report_progress() {

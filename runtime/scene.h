@@ -1,6 +1,7 @@
 #pragma once
 
 #include "runtime/accel/bvh_node.h"
+#include "runtime/bounds.h"
 #include "runtime/camera.h"
 #include "runtime/function.h"
 #include "runtime/light.h"
@@ -110,6 +111,7 @@ struct PrimitiveRef {
 struct Accelerator {
     std::vector<BvhNode> nodes;
     std::vector<PrimitiveRef> primitives; ///< in the order of the leaves
+    Bounds<float> box;
 };
 
 /// Names one of a scene's tables of primitives.

@@ -4,6 +4,9 @@
 #include "runtime/raycast.h"
 #include "runtime/render_request.h"
 
+#include <array>
+#include <span>
+
 /// The colour that a ray sees: L7 to L9, L14, L15.
 namespace scc::runtime {
 
@@ -55,6 +58,8 @@ inline constexpr R before_the_light = 1 - 32 * std::numeric_limits<R>::epsilon()
 
 template <SceneModel S, class L>
 class Shader {
+    static constexpr int N = packs_together<S, L>;
+
 public:
     using R = typename S::Real;
     using Mask = MaskOf<L>;
@@ -62,38 +67,82 @@ public:
     Shader(const S& scene, const RenderSettings& settings, RayCounts& counts)
         : scene_(scene), depth_(settings.depth), shadows_(settings.shadows), counts_(counts) {}
 
-    /// What comes from along each ray of the active lanes. Mirrors are followed one after the other, each
-    /// weighing what is behind it; after the last bounce a mirror shows black.
-    Rgb<L> radiance(Ray<L> ray, Mask active) const {
-        Rgb<L> sum{L(0), L(0), L(0)};
-        Rgb<L> weight{L(1), L(1), L(1)};
+    /// What comes from along each ray of the active lanes of up to N packs, which are traced together.
+    /// Mirrors are followed one after the other, each weighing what is behind it; after the last bounce a
+    /// mirror shows black.
+    void radiance(std::span<Ray<L>> rays, Apex apex, std::span<const Mask> among,
+                  std::span<Rgb<L>> sums) const {
+        Packs packs;
+        packs.count = rays.size();
+        for (std::size_t i = 0; i < packs.count; ++i) {
+            packs[i].active = among[i];
+            sums[i] = {L(0), L(0), L(0)};
+        }
         for (int bounce = 0;; ++bounce) {
-            ray.t_max = choose(active, ray.t_max, -infinity<L>());
-            const Hit<L> hit = closest_hit(scene_, ray);
-            const Mask missed = active & (hit.kind == IndexOf<L>(no_kind));
-            sum = choose(missed, sum + weight * lanes<L>(scene_.background), sum);
-            active = active & !missed;
-            if (none(active)) {
-                return sum;
+            std::array<Hit<L>, N> hits;
+            for (std::size_t i = 0; i < packs.count; ++i) {
+                rays[i].t_max = choose(packs[i].active, rays[i].t_max, -infinity<L>());
+                hits[i] = {};
             }
-            const Encounter<L> at = encounter(ray, hit, active);
-            const Reflectances<L> material = reflectances(at, active);
-            sum = choose(active, sum + weight * illumination(at, material, active), sum);
-            if constexpr (!S::traits.reflection) {
-                return sum;
+            closest_hits<N, S, L>(scene_, rays, apex, {hits.data(), packs.count});
+            bool goes_on = false;
+            for (std::size_t i = 0; i < packs.count; ++i) {
+                Pack& pack = packs[i];
+                const Mask missed = pack.active & (hits[i].kind == IndexOf<L>(no_kind));
+                sums[i] = choose(missed, sums[i] + pack.weight * lanes<L>(scene_.background), sums[i]);
+                pack.active = pack.active & !missed;
+                if (any(pack.active)) {
+                    goes_on = true;
+                    pack.at = encounter(rays[i], hits[i], pack.active);
+                    pack.material = reflectances(pack.at, pack.active);
+                }
             }
-            active = active & !is_black(material.reflect);
-            if (bounce >= depth_ || none(active)) {
-                return sum;
+            if (!goes_on) {
+                return;
             }
-            weight = weight * material.reflect;
-            const Vec3<L> mirrored = reflect(ray.dir, at.normal);
-            ray = {start_off(at.surface, mirrored), mirrored, spawned_t_min<L>(), infinity<L>()};
-            counts_.reflected += count_lanes(active);
+            illuminate(packs);
+            goes_on = false;
+            for (std::size_t i = 0; i < packs.count; ++i) {
+                Pack& pack = packs[i];
+                if (none(pack.active)) {
+                    continue;
+                }
+                sums[i] = choose(pack.active, sums[i] + pack.weight * pack.light, sums[i]);
+                if constexpr (S::traits.reflection) {
+                    pack.active = pack.active & !is_black(pack.material.reflect);
+                    if (bounce >= depth_ || none(pack.active)) {
+                        continue;
+                    }
+                    goes_on = true;
+                    pack.weight = pack.weight * pack.material.reflect;
+                    const Vec3<L> mirrored = reflect(rays[i].dir, pack.at.normal);
+                    rays[i] = {start_off(pack.at.surface, mirrored), mirrored, spawned_t_min<L>(),
+                               infinity<L>()};
+                    counts_.reflected += count_lanes(pack.active);
+                }
+            }
+            if (!goes_on) {
+                return;
+            }
+            apex = Apex::none;
         }
     }
 
 private:
+    /// What is known of one pack's rays.
+    struct Pack {
+        Mask active{false};
+        Rgb<L> weight{L(1), L(1), L(1)};
+        Encounter<L> at;
+        Reflectances<L> material;
+        Rgb<L> light; ///< that leaves the encounter towards the ray's origin, but for mirrors
+    };
+    struct Packs {
+        std::array<Pack, N> list;
+        std::size_t count;
+        Pack& operator[](std::size_t i) { return list[i]; }
+    };
+
     /// The material is chosen by the side of the geometric normal that the ray is on. The shading normal is
     /// turned to the viewer by its own sign, so that an interpolated one that already points away at a
     /// silhouette shades as in POV-Ray.
@@ -169,41 +218,60 @@ private:
         return result;
     }
 
-    Rgb<L> illumination(const Encounter<L>& at, const Reflectances<L>& material, const Mask& active) const {
-        Rgb<L> sum = lanes<L>(scene_.ambient) * material.ambient;
-        if constexpr (S::traits.emission) {
-            sum = sum + material.emission;
+    void illuminate(Packs& packs) const {
+        for (std::size_t i = 0; i < packs.count; ++i) {
+            Pack& pack = packs[i];
+            pack.light = lanes<L>(scene_.ambient) * pack.material.ambient;
+            if constexpr (S::traits.emission) {
+                pack.light = pack.light + pack.material.emission;
+            }
         }
-        const Mask shiny = active & !is_black(material.specular);
-        const auto add_light = [&](const auto& light) { add(sum, light, at, material, active, shiny); };
+        const auto add_light = [&](const auto& light) { add(light, packs); };
         if constexpr (S::traits.point_lights) {
             for_each_light(scene_.point_lights, add_light);
         }
         if constexpr (S::traits.directional_lights) {
             for_each_light(scene_.directional_lights, add_light);
         }
-        return sum;
     }
 
     template <class Light>
-    void add(Rgb<L>& sum, const Light& light, const Encounter<L>& at, const Reflectances<L>& material,
-             const Mask& active, [[maybe_unused]] const Mask& shiny) const {
-        const LightAt<L> seen = light_at(light, at.surface.point);
-        const L cosine = dot(seen.to_light, at.normal);
-        Mask lit = active & (cosine > 0);
-        if (none(lit)) {
+    void add(const Light& light, Packs& packs) const {
+        std::array<LightAt<L>, N> seen;
+        std::array<L, N> cosine;
+        std::array<Mask, N> lit;
+        bool any_lit = false;
+        for (std::size_t i = 0; i < packs.count; ++i) {
+            lit[i] = packs[i].active;
+            if (none(lit[i])) {
+                continue;
+            }
+            seen[i] = light_at(light, packs[i].at.surface.point);
+            cosine[i] = dot(seen[i].to_light, packs[i].at.normal);
+            lit[i] = lit[i] & (cosine[i] > 0);
+            any_lit = any_lit || any(lit[i]);
+        }
+        if (!any_lit) {
             return;
         }
-        lit = lit & !shadowed(light, at.surface, lit);
-        if (none(lit)) {
-            return;
+        take_shadowed(light, packs, lit);
+        for (std::size_t i = 0; i < packs.count; ++i) {
+            if (any(lit[i])) {
+                add(light, packs[i], seen[i], cosine[i], lit[i]);
+            }
         }
+    }
+
+    template <class Light>
+    void add(const Light& light, Pack& pack, const LightAt<L>& seen, const L& cosine, const Mask& lit) const {
+        const Reflectances<L>& material = pack.material;
         Rgb<L> reflected = lanes<L>(light.diffuse) * material.diffuse * cosine;
         if constexpr (S::traits.specular) {
-            const Mask highlit = lit & shiny;
+            const Mask highlit = lit & !is_black(material.specular);
             if (any(highlit)) {
                 const Rgb<L> color = lanes<L>(S::traits.separate_specular ? light.specular : light.diffuse);
-                const L strength = highlight(at.normal, seen.to_light, at.to_viewer, material.shininess);
+                const L strength =
+                    highlight(pack.at.normal, seen.to_light, pack.at.to_viewer, material.shininess);
                 reflected = choose(highlit, reflected + color * material.specular * strength, reflected);
             }
         }
@@ -212,24 +280,35 @@ private:
                 reflected = reflected / attenuation(light, seen.distance);
             }
         }
-        sum = choose(lit, sum + reflected, sum);
+        pack.light = choose(lit, pack.light + reflected, pack.light);
     }
 
-    /// L14: feelers that start off the surface, for the lanes in `asking`.
+    /// L14: feelers that start off the surfaces, for the lit lanes.
     template <class Light>
-    Mask shadowed(const Light& light, const Surface<L>& surface, const Mask& asking) const {
+    void take_shadowed(const Light& light, const Packs& packs, std::array<Mask, N>& lit) const {
         if constexpr (S::traits.shadows) {
             if (!shadows_) {
-                return Mask(false);
+                return;
             }
-            counts_.shadow += count_lanes(asking);
-            Ray<L> ray = feeler(light, surface);
-            ray.t_max = choose(asking, ray.t_max, -infinity<L>());
-            return any_hit(scene_, ray);
-        } else {
-            return Mask(false);
+            std::array<Ray<L>, N> rays;
+            std::array<Mask, N> blocked;
+            for (std::size_t i = 0; i < packs.count; ++i) {
+                blocked[i] = Mask(false);
+                if (any(lit[i])) {
+                    counts_.shadow += count_lanes(lit[i]);
+                    rays[i] = feeler(light, packs.list[i].at.surface);
+                }
+                rays[i].t_max = choose(lit[i], rays[i].t_max, -infinity<L>());
+            }
+            any_hits<N, S, L>(scene_, {rays.data(), packs.count}, apex_of(light),
+                              {blocked.data(), packs.count});
+            for (std::size_t i = 0; i < packs.count; ++i) {
+                lit[i] = lit[i] & !blocked[i];
+            }
         }
     }
+    static Apex apex_of(const PointLight<R>&) { return Apex::end; }
+    static Apex apex_of(const DirectionalLight<R>&) { return Apex::none; }
     static Ray<L> feeler(const PointLight<R>& light, const Surface<L>& surface) {
         const Vec3<L> position = lanes<L>(light.position);
         const Vec3<L> org = start_off(surface, position - surface.point);

@@ -325,13 +325,15 @@ std::vector<std::string> Emitter<R>::mesh_rows() {
         const runtime::MeshData data = storage.data();
         const std::size_t normal_indices = data.normals != nullptr ? storage.normal_indices.size() : 0;
         const std::size_t normals = data.normals != nullptr ? storage.normals.size() : 0;
-        rows.push_back(fmt::format("{{{}, {}, {}, {}, {}, {}, {}, {}, {}}}",
-                                   in_blob("float", data.positions, storage.positions.size()),
-                                   in_blob("float", data.normals, normals),
-                                   in_blob("std::uint32_t", data.normal_indices, normal_indices),
-                                   in_blob("MeshTriangle", data.triangles, data.triangle_count),
-                                   in_blob("BvhNode", data.nodes, data.node_count), data.position_count,
-                                   data.normal_count, data.triangle_count, data.node_count));
+        const auto corner = [](const float(&v)[3]) {
+            return fmt::format("{{{}, {}, {}}}", literal(v[0]), literal(v[1]), literal(v[2]));
+        };
+        rows.push_back(fmt::format(
+            "{{{}, {}, {}, {}, {}, {}, {}, {}, {}}}", in_blob("BvhNode", data.nodes, storage.nodes.size()),
+            in_blob("float", data.triangles, storage.triangles.size()),
+            in_blob("float", data.normals, normals),
+            in_blob("std::uint32_t", data.normal_indices, normal_indices), data.node_count,
+            data.triangle_count, data.normal_count, corner(data.min), corner(data.max)));
     }
     return rows;
 }

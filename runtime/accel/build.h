@@ -3,30 +3,107 @@
 #include "runtime/accel/build_bvh.h"
 #include "runtime/primitive.h"
 
+#include <algorithm>
+#include <bit>
 #include <utility>
+#include <vector>
 
 namespace scc::runtime {
 
-/// Three indices per triangle. `normals` and `normal_indices` empty: flat; else as many normal indices as
-/// indices.
-inline MeshStorage build_mesh(std::vector<float> positions, const std::vector<std::uint32_t>& indices,
-                              std::vector<float> normals = {},
-                              std::vector<std::uint32_t> normal_indices = {}) {
-    const std::size_t count = indices.size() / 3;
-    std::vector<Bounds<float>> boxes(count);
-    for (std::size_t i = 0; i < indices.size(); ++i) {
-        boxes[i / 3].add(read_vector<float>(positions.data(), indices[i]));
+struct BuildOptions {
+    int threads = 1;
+    BuildQuality quality = BuildQuality::high;
+};
+
+namespace detail {
+
+/// What a loader has of a triangle mesh: three indices per triangle.
+struct MeshSource {
+    const std::vector<float>& positions;
+    const std::vector<std::uint32_t>& indices;
+
+    Vec3<float> corner(std::size_t triangle, std::size_t i) const {
+        return read_vector<float>(positions.data(), indices[3 * triangle + i]);
     }
-    Bvh bvh = build_bvh(boxes);
+};
+
+inline constexpr std::size_t triangles_per_task = 16384;
+
+inline std::vector<BoxRef> triangle_boxes(const MeshSource& source, int threads) {
+    const std::size_t count = source.indices.size() / 3;
+    std::vector<BoxRef> refs(count);
+    share_work((count + triangles_per_task - 1) / triangles_per_task, threads, [&](std::size_t task) {
+        const std::size_t end = std::min(count, (task + 1) * triangles_per_task);
+        for (std::size_t i = task * triangles_per_task; i < end; ++i) {
+            Bounds<float> box;
+            for (std::size_t k = 0; k < 3; ++k) {
+                box.add(source.corner(i, k));
+            }
+            refs[i] = box_ref(box, static_cast<std::uint32_t>(i));
+        }
+    });
+    return refs;
+}
+
+/// Writes a leaf's words as MeshData describes them.
+inline void store_leaf(const MeshSource& source, const Bvh& bvh, const BvhLeaf& leaf, float* triangles) {
+    float* words = triangles + words_per_triangle * leaf.first;
+    for (std::uint32_t i = 0; i < leaf.count; ++i) {
+        const std::uint32_t id = bvh.order[leaf.first + i];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3<float> corner = source.corner(id, k);
+            words[(3 * k + 0) * leaf.count + i] = corner.x;
+            words[(3 * k + 1) * leaf.count + i] = corner.y;
+            words[(3 * k + 2) * leaf.count + i] = corner.z;
+        }
+        words[9 * leaf.count + i] = std::bit_cast<float>(id);
+    }
+}
+
+inline Bounds<float> root_bounds(const std::vector<BvhNode>& nodes) {
+    Bounds<float> box;
+    if (!nodes.empty()) {
+        for (int i = 0; i < bvh_width; ++i) {
+            box.add(Bounds<float>{{nodes[0].min[0][i], nodes[0].min[1][i], nodes[0].min[2][i]},
+                                  {nodes[0].max[0][i], nodes[0].max[1][i], nodes[0].max[2][i]}});
+        }
+    }
+    return box;
+}
+
+} // namespace detail
+
+/// Three indices per triangle, of at most mesh_most_triangles. `normals` and `normal_indices` empty: flat;
+/// else as many normal indices as indices.
+inline MeshStorage build_mesh(const std::vector<float>& positions, const std::vector<std::uint32_t>& indices,
+                              std::vector<float> normals = {}, std::vector<std::uint32_t> normal_indices = {},
+                              const BuildOptions& options = {}) {
+    const detail::MeshSource source{positions, indices};
+    Bvh bvh = build_bvh(detail::triangle_boxes(source, options.threads), options.threads, options.quality);
     MeshStorage mesh;
-    mesh.triangles.reserve(count);
-    for (const std::uint32_t id : bvh.order) {
-        const std::uint32_t* corner = &indices[std::size_t{3} * id];
-        mesh.triangles.push_back({{corner[0], corner[1], corner[2]}, id});
-    }
-    mesh.positions = std::move(positions);
     mesh.normals = std::move(normals);
     mesh.normal_indices = std::move(normal_indices);
+    if (bvh.nodes.empty()) {
+        return mesh;
+    }
+    mesh.triangles.resize(words_per_triangle * bvh.order.size() + triangle_padding);
+    constexpr std::size_t nodes_per_task = 1024;
+    detail::share_work((bvh.nodes.size() + nodes_per_task - 1) / nodes_per_task, options.threads,
+                       [&](std::size_t task) {
+                           const std::size_t end = std::min(bvh.nodes.size(), (task + 1) * nodes_per_task);
+                           for (std::size_t n = task * nodes_per_task; n < end; ++n) {
+                               for (const std::uint32_t child : bvh.nodes[n].child) {
+                                   if (is_leaf(child)) {
+                                       detail::store_leaf(source, bvh, leaf_of(child), mesh.triangles.data());
+                                   }
+                               }
+                           }
+                       });
+    const Bounds<float> box = detail::root_bounds(bvh.nodes);
+    for (int axis = 0; axis < 3; ++axis) {
+        mesh.min[axis] = detail::component(box.min, axis);
+        mesh.max[axis] = detail::component(box.max, axis);
+    }
     mesh.nodes = std::move(bvh.nodes);
     return mesh;
 }
@@ -34,12 +111,13 @@ inline MeshStorage build_mesh(std::vector<float> positions, const std::vector<st
 namespace detail {
 
 template <class S, std::uint32_t kind>
-void collect_bounds(const S& scene, std::vector<Bounds<float>>& boxes, std::vector<PrimitiveRef>& refs) {
+void collect_bounds(const S& scene, std::vector<BoxRef>& boxes, std::vector<PrimitiveRef>& refs) {
     using R = typename S::Real;
     if constexpr (uses_kind(S::traits, kind) && is_bounded<ShapeOfKind<R, kind>>) {
         const auto& table = scene.primitives(Of<PrimitiveOfKind<R, kind>>{});
         for (std::size_t i = 0; i < table.size(); ++i) {
-            boxes.push_back(round_outwards(bounds_of(scene, table[i])));
+            boxes.push_back(
+                box_ref(round_outwards(bounds_of(scene, table[i])), static_cast<std::uint32_t>(refs.size())));
             refs.push_back({kind, static_cast<std::uint32_t>(i)});
         }
     }
@@ -49,15 +127,16 @@ void collect_bounds(const S& scene, std::vector<Bounds<float>>& boxes, std::vect
 
 /// The hierarchy over the scene's bounded shapes, however few.
 template <SceneModel S>
-Accelerator build_accelerator(const S& scene) {
-    std::vector<Bounds<float>> boxes;
+Accelerator build_accelerator(const S& scene, const BuildOptions& options = {}) {
+    std::vector<BoxRef> boxes;
     std::vector<PrimitiveRef> refs;
     [&]<std::uint32_t... kind>(std::integer_sequence<std::uint32_t, kind...>) {
         (detail::collect_bounds<S, kind>(scene, boxes, refs), ...);
     }
     (std::make_integer_sequence<std::uint32_t, primitive_kinds>{});
-    Bvh bvh = build_bvh(boxes);
+    Bvh bvh = build_bvh(std::move(boxes), options.threads, options.quality);
     Accelerator result;
+    result.box = detail::root_bounds(bvh.nodes);
     result.nodes = std::move(bvh.nodes);
     result.primitives.reserve(refs.size());
     for (const std::uint32_t i : bvh.order) {
@@ -84,10 +163,11 @@ std::size_t bounded_primitives(const S& scene) {
 
 /// To be called when the tables and meshes are filled, before rendering.
 template <SceneModel S>
-void prepare(S& scene) {
+void prepare(S& scene, const BuildOptions& options = {}) {
     if constexpr (S::traits.accelerator) {
-        scene.accelerator =
-            bounded_primitives(scene) > accelerator_threshold ? build_accelerator(scene) : Accelerator{};
+        scene.accelerator = bounded_primitives(scene) > accelerator_threshold
+                                ? build_accelerator(scene, options)
+                                : Accelerator{};
     }
 }
 

@@ -52,6 +52,29 @@ template <std::floating_point T>
 constexpr void set_lane(T& x, int, T value) {
     x = value;
 }
+/// As many of the numbers as L has lanes.
+template <std::floating_point L>
+constexpr L load_lanes(const float* numbers) {
+    return static_cast<L>(*numbers);
+}
+template <std::floating_point L>
+constexpr void store_lanes(L* numbers, L x) {
+    *numbers = x;
+}
+template <std::floating_point T>
+constexpr T smallest(T x) {
+    return x;
+}
+template <std::floating_point T>
+constexpr T largest(T x) {
+    return x;
+}
+constexpr void set_lane(bool& x, int, bool value) {
+    x = value;
+}
+constexpr void set_lane(std::uint32_t& x, int, std::uint32_t value) {
+    x = value;
+}
 constexpr int first_lane(bool) {
     return 0;
 }
@@ -122,16 +145,6 @@ T round_up(T x) {
 template <Lane L>
 L floored_mod(L a, std::type_identity_t<L> b) {
     return a - b * round_down(a / b);
-}
-
-/// a b - c d, for float evaluated in double, where the products are exact and the sign is therefore right.
-template <std::floating_point T>
-constexpr T difference_of_products(T a, T b, T c, T d) {
-    if constexpr (std::is_same_v<T, float>) {
-        return static_cast<float>(double(a) * double(b) - double(c) * double(d));
-    } else {
-        return a * b - c * d;
-    }
 }
 
 /// x, of which the compiler knows nothing any more. Compilers fold elementary functions of known arguments

@@ -3,6 +3,8 @@
 #include "runtime/math/lane.h"
 #include "runtime/math/registers.h"
 
+#include <cstring>
+
 namespace scc::runtime {
 
 /// The masks of Pack<T, N>: all bits of a lane are set or none.
@@ -23,13 +25,20 @@ struct PackMask {
 
     friend bool any(PackMask mask) { return bits(mask) != 0; }
     friend bool none(PackMask mask) { return bits(mask) == 0; }
-    friend bool all(PackMask mask) { return bits(mask) == (1U << N) - 1; }
+    friend bool all(PackMask mask) { return bits(mask) == static_cast<unsigned>((1ULL << N) - 1); }
 
     /// Bit i is lane i.
     friend unsigned bits(PackMask mask) {
         const auto lanes = reinterpret_cast<RealVector>(mask.v);
         if constexpr (requires { detail::sign_bits(lanes); }) {
             return detail::sign_bits(lanes);
+        } else if constexpr (N > 2) { // wider than a register
+            detail::VectorType<T, N / 2> half[2];
+            std::memcpy(half, &lanes, sizeof lanes);
+            using HalfMask = PackMask<T, N / 2>;
+            using HalfVector = typename HalfMask::Vector;
+            return bits(HalfMask(reinterpret_cast<HalfVector>(half[0]))) |
+                   bits(HalfMask(reinterpret_cast<HalfVector>(half[1]))) << N / 2;
         } else {
             unsigned result = 0;
             for (int i = 0; i < N; ++i) {
@@ -117,6 +126,52 @@ void set_lane(Pack<T, N>& x, int i, T value) {
     x.v[i] = value;
 }
 template <class T, int N>
+void set_lane(PackMask<T, N>& x, int i, bool value) {
+    x.v[i] = value ? -1 : 0;
+}
+template <class T, int N>
+void set_lane(PackIndex<T, N>& x, int i, std::uint32_t value) {
+    x.v[i] = value;
+}
+template <class L>
+requires(lane_count<L> > 1) L load_lanes(const float* numbers) {
+    detail::VectorType<float, lane_count<L>> loaded;
+    std::memcpy(&loaded, numbers, sizeof loaded);
+    return L(__builtin_convertvector(loaded, typename L::Vector));
+}
+template <class T, int N>
+void store_lanes(T* numbers, const Pack<T, N>& x) {
+    std::memcpy(numbers, &x.v, sizeof x.v);
+}
+
+namespace detail {
+
+template <class T, int N, class Combine>
+T fold(const Pack<T, N>& x, Combine&& combine) {
+    if constexpr (N == 1) {
+        return x.v[0];
+    } else {
+        VectorType<T, N / 2> half[2];
+        std::memcpy(half, &x.v, sizeof half);
+        if constexpr (N == 2) {
+            return combine(half[0][0], half[1][0]);
+        } else {
+            return fold(combine(Pack<T, N / 2>(half[0]), Pack<T, N / 2>(half[1])), combine);
+        }
+    }
+}
+
+} // namespace detail
+
+template <class T, int N>
+T smallest(const Pack<T, N>& x) {
+    return detail::fold(x, [](const auto& a, const auto& b) { return minimum(a, b); });
+}
+template <class T, int N>
+T largest(const Pack<T, N>& x) {
+    return detail::fold(x, [](const auto& a, const auto& b) { return maximum(a, b); });
+}
+template <class T, int N>
 int first_lane(PackMask<T, N> mask) {
     return __builtin_ctz(bits(mask));
 }
@@ -176,12 +231,6 @@ Pack<T, N> round_down(Pack<T, N> x) {
 template <class T, int N>
 Pack<T, N> round_up(Pack<T, N> x) {
     return -round_down(-x);
-}
-
-template <class T, int N>
-Pack<T, N> difference_of_products(Pack<T, N> a, Pack<T, N> b, Pack<T, N> c, Pack<T, N> d) {
-    return detail::each_lane<T, N>(
-        [&](int i) { return difference_of_products(a.v[i], b.v[i], c.v[i], d.v[i]); });
 }
 
 template <class T, int N>

@@ -43,14 +43,14 @@ struct Triangle {
     template <class L>
     constexpr ShapeHit<L> intersect(const Ray<L>& ray) const {
         const Corners<L> corners{lanes<L>(points[0]), lanes<L>(points[1]), lanes<L>(points[2])};
-        const L t = intersect_triangle(corners, Shear<L>(ray.dir), ray);
+        const L t = intersect_triangle(corners, ray);
         return {choose((t >= ray.t_min) & (t <= ray.t_max), t, infinity<L>()), {}};
     }
 
     template <class L>
     constexpr Surface<L> surface(const Ray<L>& ray, const ShapeHit<L>&) const {
         const Corners<L> corners{lanes<L>(points[0]), lanes<L>(points[1]), lanes<L>(points[2])};
-        const Vec3<L> weights = barycentric(corners, Shear<L>(ray.dir), ray.org);
+        const Vec3<L> weights = barycentric(corners, ray);
         Surface<L> result = triangle_surface(corners, weights);
         if (smooth) {
             const Corners<L> n{lanes<L>(normalize(normals[0])), lanes<L>(normalize(normals[1])),

@@ -2,6 +2,8 @@
 
 #include "runtime/ray.h"
 
+#include <type_traits>
+
 namespace scc::runtime {
 
 template <class L>
@@ -9,75 +11,121 @@ struct Corners {
     Vec3<L> a, b, c;
 };
 
-/// A ray's direction as the z axis: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1),
-/// 2013. Every edge shared by two triangles gets exactly opposite values from both, so no ray passes between
-/// them.
+/// The corners relative to a point.
 template <class L>
-struct Shear {
-    MaskOf<L> x_major, z_major;
-    L x, y, z; ///< the shear's entries; z: 1 / dir along the major axis
+constexpr Corners<L> relative_to(const Vec3<L>& org, const Corners<L>& corners) {
+    return {corners.a - org, corners.b - org, corners.c - org};
+}
 
-    explicit constexpr Shear(const Vec3<L>& dir) {
-        const Vec3<L> size = absolute(dir);
-        z_major = (size.z >= size.x) & (size.z >= size.y);
-        x_major = (size.x >= size.y) & !z_major;
-        const Vec3<L> turned = turn(dir);
-        z = 1 / turned.z;
-        x = turned.x * z;
-        y = turned.y * z;
-    }
+/// A triangle as seen from a point, given its corners relative to that: for a ray from there, the products of
+/// these vectors with its direction are the edge functions, twice the volumes that it spans with the edges.
+/// All of one sign: the ray passes through. (The form of Embree's robust test: an edge times the sum of its
+/// ends loses nothing when the triangle is small and far, and changes its sign exactly when the edge is
+/// walked the other way.)
+///
+/// `tolerance` times the direction's largest component is at least what rounding does to an edge function.
+/// (96 roundings: 5 for a sum of products, of which there are 6 terms, each at most `size` by twice
+/// `distance`; as much again for the two factors' own.)
+template <class L>
+struct TriangleView {
+    Vec3<L> a, b, c; ///< of the edges opposite to these corners
+    L tolerance;
 
-    /// Renames the axes so that the major one is z.
-    constexpr Vec3<L> turn(const Vec3<L>& v) const {
-        return {choose(z_major, v.x, choose(x_major, v.y, v.z)),
-                choose(z_major, v.y, choose(x_major, v.z, v.x)),
-                choose(z_major, v.z, choose(x_major, v.x, v.y))};
+    constexpr TriangleView() = default;
+    constexpr explicit TriangleView(const Corners<L>& to) {
+        const Vec3<L> ab = to.b - to.a, bc = to.c - to.b, ca = to.a - to.c;
+        a = cross(bc, to.b + to.c);
+        b = cross(ca, to.c + to.a);
+        c = cross(ab, to.a + to.b);
+        const L size = largest_component(maximum(maximum(absolute(ab), absolute(bc)), absolute(ca)));
+        const L distance = largest_component(absolute(to.a)) + size;
+        tolerance = 96 * roundoff<L>() * (size * distance);
     }
 };
 
-/// Twice the signed areas that the ray spans with the edges, seen along it; the weights of the corners after
-/// division by their sum. All of one sign, or 0: the ray passes through.
+/// A ray's edge functions; the corners' weights after division by their sum.
+///
+/// Watertight: whether a ray passes through is decided for the corners as rounded relative to its origin,
+/// which make one mesh for all triangles. Where the sign of an edge function is unclear, float lanes are
+/// calculated again in double; what is unclear in double counts as inside for both of an edge's triangles, so
+/// that no ray passes between them, but a triangle that is seen edge-on is left to its neighbours.
 template <class L>
-constexpr Vec3<L> edge_functions(const Corners<L>& corners, const Shear<L>& shear, const Vec3<L>& org) {
-    const Vec3<L> a = shear.turn(corners.a - org), b = shear.turn(corners.b - org),
-                  c = shear.turn(corners.c - org);
-    const L ax = a.x - shear.x * a.z, ay = a.y - shear.y * a.z;
-    const L bx = b.x - shear.x * b.z, by = b.y - shear.y * b.z;
-    const L cx = c.x - shear.x * c.z, cy = c.y - shear.y * c.z;
-    Vec3<L> e{cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax};
-    if constexpr (sizeof(RealOf<L>) < sizeof(double)) {
-        // A product may have vanished or two become equal: the sign decides which triangle has the hit.
-        const MaskOf<L> unclear = (e.x == 0) | (e.y == 0) | (e.z == 0);
-        if (any(unclear)) {
-            e = choose(unclear,
-                       Vec3<L>{difference_of_products(cx, by, cy, bx), difference_of_products(ax, cy, ay, cx),
-                               difference_of_products(bx, ay, by, ax)},
-                       e);
+struct EdgeFunctions {
+    Vec3<L> e;
+    L tolerance, smallest, largest;
+
+    /// The view's lanes are the direction's or, of a triangle that all rays see from one point, just one.
+    template <class V>
+    constexpr EdgeFunctions(const TriangleView<V>& view, const Vec3<L>& dir, const L& dir_size)
+        : e{dot(dir, lanes<L>(view.a)), dot(dir, lanes<L>(view.b)), dot(dir, lanes<L>(view.c))},
+          tolerance(dir_size * L(view.tolerance)), smallest(minimum(minimum(e.x, e.y), e.z)),
+          largest(maximum(maximum(e.x, e.y), e.z)) {}
+
+    constexpr MaskOf<L> may_pass() const { return !((smallest < -tolerance) & (largest > tolerance)); }
+
+    /// Of the lanes `among`, for which may_pass() is true. `relative(i)` gives lane i's relative corners.
+    template <class Relative>
+    constexpr MaskOf<L> pass(const MaskOf<L>& among, const Vec3<L>& dir, Relative&& relative) const {
+        const MaskOf<L> clear = among & ((smallest > tolerance) | (largest < -tolerance));
+        if constexpr (std::is_same_v<RealOf<L>, float>) {
+            MaskOf<L> result = clear;
+            for (unsigned left = bits(among & !clear); left != 0; left &= left - 1) {
+                const int i = __builtin_ctz(left);
+                const Corners<float> to = relative(i);
+                const Corners<double> to_exactly{lanes<double>(to.a), lanes<double>(to.b),
+                                                 lanes<double>(to.c)};
+                const Vec3<double> ray{lane(dir.x, i), lane(dir.y, i), lane(dir.z, i)};
+                const EdgeFunctions<double> exact(TriangleView<double>(to_exactly), ray,
+                                                  largest_component(absolute(ray)));
+                set_lane(result, i, exact.may_pass() & !exact.is_edge_on());
+            }
+            return result;
+        } else {
+            return clear | (among & !is_edge_on());
         }
     }
-    return e;
+
+    constexpr MaskOf<L> is_edge_on() const { return absolute(e.x + e.y + e.z) <= tolerance; }
+};
+
+template <class L>
+constexpr Corners<RealOf<L>> lane(const Corners<L>& corners, int i) {
+    return {{lane(corners.a.x, i), lane(corners.a.y, i), lane(corners.a.z, i)},
+            {lane(corners.b.x, i), lane(corners.b.y, i), lane(corners.b.z, i)},
+            {lane(corners.c.x, i), lane(corners.c.y, i), lane(corners.c.z, i)}};
 }
 
-/// t where the ray meets the triangle, on either side of 0; infinity or NaN where it misses. The edge
-/// functions decide whether, the plane through the corners decides where: its distance is accurate also for
-/// slivers and agrees with triangle_surface about the side that a point near the triangle is on.
+/// t where the ray meets the triangle's plane, whose distance is accurate also for slivers and agrees with
+/// triangle_surface about the side that a point near the triangle is on. `org` is the ray's, of the lanes'
+/// type or the one that all rays share.
+template <class L, class V>
+constexpr L distance_to_plane(const Corners<V>& corners, const Vec3<V>& org, const Vec3<L>& dir) {
+    const Vec3<V> n = cross(corners.b - corners.a, corners.c - corners.a);
+    return L(dot(n, corners.a - org)) / dot(lanes<L>(n), dir);
+}
+
+/// t where the ray meets the triangle, on either side of 0; infinity or NaN where it misses.
 template <class L>
-constexpr L intersect_triangle(const Corners<L>& corners, const Shear<L>& shear, const Ray<L>& ray) {
-    const Vec3<L> e = edge_functions(corners, shear, ray.org);
-    const MaskOf<L> outside = ((e.x < 0) | (e.y < 0) | (e.z < 0)) & ((e.x > 0) | (e.y > 0) | (e.z > 0));
-    const MaskOf<L> inside = (e.x + e.y + e.z != 0) & !outside;
+constexpr L intersect_triangle(const Corners<L>& corners, const Ray<L>& ray) {
+    const Corners<L> relative = relative_to(ray.org, corners);
+    const EdgeFunctions<L> edges(TriangleView<L>(relative), ray.dir, largest_component(absolute(ray.dir)));
+    MaskOf<L> inside = edges.may_pass();
     if (none(inside)) {
         return infinity<L>();
     }
-    const Vec3<L> n = cross(corners.b - corners.a, corners.c - corners.a);
-    return choose(inside, dot(n, corners.a - ray.org) / dot(n, ray.dir), infinity<L>());
+    inside = edges.pass(inside, ray.dir, [&](int i) { return lane(relative, i); });
+    return choose(inside, distance_to_plane(corners, ray.org, ray.dir), infinity<L>());
 }
 
-/// The weights of the corners where the ray passes through the triangle.
+/// The weights of the corners where the ray passes through the triangle, 0..1 each.
 template <class L>
-constexpr Vec3<L> barycentric(const Corners<L>& corners, const Shear<L>& shear, const Vec3<L>& org) {
-    const Vec3<L> e = edge_functions(corners, shear, org);
-    return e * (1 / (e.x + e.y + e.z));
+constexpr Vec3<L> barycentric(const Corners<L>& corners, const Ray<L>& ray) {
+    const EdgeFunctions<L> edges(TriangleView<L>(relative_to(ray.org, corners)), ray.dir,
+                                 largest_component(absolute(ray.dir)));
+    const L inverse = 1 / (edges.e.x + edges.e.y + edges.e.z);
+    const Vec3<L> zero{L(0), L(0), L(0)};
+    const Vec3<L> inside = maximum(zero, edges.e * inverse); // rounding may put a ray on an edge beyond it
+    return inside * (1 / (inside.x + inside.y + inside.z));
 }
 
 template <class L>
@@ -88,7 +136,7 @@ constexpr Surface<L> triangle_surface(const Corners<L>& corners, const Vec3<L>& 
     const Vec3<L> in_plane = edge1 * weights.y + edge2 * weights.z;
     const Vec3<L> point = corners.a + (in_plane - n * dot(n, in_plane));
     // 2: the sum. Then the in-plane vector's error, a few roundings of the edges, and the plane's distance in
-    // intersect_triangle: 4 roundings of the terms of n.(a - org), which is at most as long as the edges.
+    // distance_to_plane: 4 roundings of the terms of n.(a - org), which is at most as long as the edges.
     const Vec3<L> reach = absolute(edge1) + absolute(edge2);
     const Vec3<L> error =
         absolute(point) * (2 * u) + reach * (8 * u) + absolute(n) * (16 * u * dot(absolute(n), reach));

@@ -6,40 +6,105 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 
 using namespace scc::runtime;
 using namespace scc::runtime::test;
 
 namespace {
 
-int depth_of(const std::vector<BvhNode>& nodes, std::uint32_t node) {
-    const BvhNode& n = nodes[node];
-    return n.count > 0 ? 1 : 1 + std::max(depth_of(nodes, n.first), depth_of(nodes, n.first + 1));
+bool is_used(const BvhNode& node, int slot) {
+    return node.min[0][slot] <= node.max[0][slot];
 }
 
-TEST(Bvh, EveryPrimitiveIsInExactlyOneLeafAndInsideItsBoxes) {
+int depth_of(const std::vector<BvhNode>& nodes, std::uint32_t node) {
+    int depth = 0;
+    for (int slot = 0; slot < bvh_width; ++slot) {
+        const std::uint32_t child = nodes[node].child[slot];
+        if (is_used(nodes[node], slot) && !is_leaf(child)) {
+            depth = std::max(depth, depth_of(nodes, child));
+        }
+    }
+    return depth + 1;
+}
+
+std::vector<BoxRef> refs_of(const std::vector<Bounds<float>>& boxes) {
+    std::vector<BoxRef> refs;
+    for (const Bounds<float>& box : boxes) {
+        refs.push_back(box_ref(box, static_cast<std::uint32_t>(refs.size())));
+    }
+    return refs;
+}
+
+bool contains(const Bounds<float>& outer, const Bounds<float>& inner) {
+    return outer.min.x <= inner.min.x && outer.min.y <= inner.min.y && outer.min.z <= inner.min.z &&
+           outer.max.x >= inner.max.x && outer.max.y >= inner.max.y && outer.max.z >= inner.max.z;
+}
+
+Bounds<float> box_of(const BvhNode& node, int slot) {
+    return {{node.min[0][slot], node.min[1][slot], node.min[2][slot]},
+            {node.max[0][slot], node.max[1][slot], node.max[2][slot]}};
+}
+
+/// Counts in `seen` the primitives of the leaves; all boxes on the way must contain them.
+void visit(const Bvh& bvh, std::uint32_t node, const Bounds<float>& outer,
+           const std::vector<Bounds<float>>& boxes, std::vector<int>& seen) {
+    for (int slot = 0; slot < bvh_width; ++slot) {
+        if (!is_used(bvh.nodes[node], slot)) {
+            continue;
+        }
+        const Bounds<float> box = box_of(bvh.nodes[node], slot);
+        EXPECT_TRUE(contains(outer, box));
+        const std::uint32_t child = bvh.nodes[node].child[slot];
+        if (!is_leaf(child)) {
+            visit(bvh, child, box, boxes, seen);
+            continue;
+        }
+        const BvhLeaf leaf = leaf_of(child);
+        EXPECT_LE(leaf.count, bvh_max_leaf);
+        for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
+            ++seen[bvh.order[i]];
+            EXPECT_TRUE(contains(box, boxes[bvh.order[i]]));
+        }
+    }
+}
+
+std::vector<Bounds<float>> random_boxes(std::size_t count) {
     Random<float> random(1);
     std::vector<Bounds<float>> boxes;
-    for (int i = 0; i < 1000; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         const Vec3<float> low = random.vector(10);
         boxes.push_back({low, low + Vec3<float>{random.number(0, 1), random.number(0, 1), 0}});
     }
-    const Bvh bvh = build_bvh(boxes);
-    std::vector<int> seen(boxes.size());
-    for (const BvhNode& node : bvh.nodes) {
-        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-            const Bounds<float>& box = boxes[bvh.order[i]];
-            ++seen[bvh.order[i]];
-            EXPECT_TRUE(node.min[0] <= box.min.x && box.max.x <= node.max[0] && node.min[1] <= box.min.y &&
-                        box.max.y <= node.max[1] && node.min[2] <= box.min.z && box.max.z <= node.max[2]);
+    return boxes;
+}
+
+constexpr Bounds<float> everywhere{{-1e9F, -1e9F, -1e9F}, {1e9F, 1e9F, 1e9F}};
+
+TEST(Bvh, EveryPrimitiveIsInExactlyOneLeafAndInsideItsBoxes) {
+    for (const std::size_t count : {1U, 4U, 5U, 9U, 1000U, 100000U}) {
+        for (const BuildQuality quality : {BuildQuality::high, BuildQuality::quick}) {
+            const std::vector<Bounds<float>> boxes = random_boxes(count);
+            const Bvh bvh = build_bvh(refs_of(boxes), 2, quality);
+            std::vector<int> seen(boxes.size());
+            visit(bvh, 0, everywhere, boxes, seen);
+            EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), static_cast<std::ptrdiff_t>(seen.size()));
         }
     }
-    EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), static_cast<std::ptrdiff_t>(seen.size()));
+}
+
+TEST(Bvh, IsTheSameForAnyNumberOfThreads) {
+    const std::vector<BoxRef> refs = refs_of(random_boxes(200000));
+    const Bvh one = build_bvh(refs, 1), three = build_bvh(refs, 3);
+    EXPECT_EQ(one.order, three.order);
+    ASSERT_EQ(one.nodes.size(), three.nodes.size());
+    EXPECT_EQ(std::memcmp(one.nodes.data(), three.nodes.data(), one.nodes.size() * sizeof(BvhNode)), 0);
 }
 
 TEST(Bvh, DepthIsBoundedForBoxesThatNoPlaneSeparates) {
     const std::vector<Bounds<float>> equal(20000, {{0, 0, 0}, {1, 1, 1}});
-    EXPECT_LE(depth_of(build_bvh(equal).nodes, 0), 20);
+    EXPECT_LE(depth_of(build_bvh(refs_of(equal)).nodes, 0), 20);
     std::vector<Bounds<float>> shrinking; // each split separates one box only
     for (int i = 0; i < 126; ++i) {
         const float x = std::ldexp(1.0F, i - 63);
@@ -51,14 +116,14 @@ TEST(Bvh, DepthIsBoundedForBoxesThatNoPlaneSeparates) {
         shrinking.insert(shrinking.end(), shrinking.begin(),
                          shrinking.begin() + static_cast<std::ptrdiff_t>(count));
     }
-    EXPECT_LE(depth_of(build_bvh(shrinking).nodes, 0), bvh_max_depth);
+    EXPECT_LE(depth_of(build_bvh(refs_of(shrinking)).nodes, 0), bvh_max_depth);
 }
 
 TEST(Bvh, InfiniteBoxesAreAccepted) {
     std::vector<Bounds<float>> boxes(20, {{0, 0, 0}, {1, 1, 1}});
     boxes[3].max.x = infinity<float>();
     boxes[5] = {{-infinity<float>(), 0, 0}, {infinity<float>(), 1, 1}};
-    EXPECT_EQ(build_bvh(boxes).order.size(), boxes.size());
+    EXPECT_EQ(build_bvh(refs_of(boxes)).order.size(), boxes.size());
 }
 
 TEST(Bvh, OutwardRoundingContainsTheBox) {
@@ -122,6 +187,37 @@ Ray<R> some_ray(Random<R>& random) {
     return ray;
 }
 
+std::vector<TrianglePlace> places_of(const MeshStorage& mesh) {
+    std::vector<TrianglePlace> places;
+    for (const BvhNode& node : mesh.nodes) {
+        for (const std::uint32_t child : node.child) {
+            for (std::uint32_t i = 0; is_leaf(child) && i < leaf_of(child).count; ++i) {
+                places.push_back({leaf_of(child).first, leaf_of(child).count, i});
+            }
+        }
+    }
+    return places;
+}
+template <class R>
+TrianglePlace some_place(const MeshStorage& mesh, Random<R>& random) {
+    const std::vector<TrianglePlace> places = places_of(mesh);
+    const auto count = static_cast<R>(places.size());
+    return places[std::min(static_cast<std::size_t>(random.number(0, 1) * count), places.size() - 1)];
+}
+
+template <class R>
+ShapeHit<R> nearest_in(const MeshStorage& mesh, Ray<R> ray) {
+    ShapeHit<R> hit;
+    intersect_mesh<false, R>(mesh.data(), {&ray, 1}, Apex::none, {&hit, 1});
+    return hit;
+}
+template <class R>
+bool is_blocked_by(const MeshStorage& mesh, Ray<R> ray) {
+    ShapeHit<R> hit;
+    intersect_mesh<true, R>(mesh.data(), {&ray, 1}, Apex::none, {&hit, 1});
+    return hit.t < infinity<R>();
+}
+
 TYPED_TEST(Hierarchy, FindsWhatATestOfEveryShapeFinds) {
     using R = TypeParam;
     Random<R> random(11);
@@ -153,25 +249,29 @@ TYPED_TEST(Hierarchy, FindsWhatATestOfEveryTriangleFinds) {
     using R = TypeParam;
     Random<R> random(12);
     const MeshStorage mesh = ball_mesh(3, 8, {1, 2, 3});
-    MeshStorage flat = mesh;
-    flat.nodes = {mesh.nodes[0]};
-    flat.nodes[0].first = 0;
-    flat.nodes[0].count = static_cast<std::uint32_t>(flat.triangles.size());
+    MeshStorage flat = mesh; // every ray that meets the mesh's box visits every leaf
+    for (BvhNode& node : flat.nodes) {
+        for (int slot = 0; slot < bvh_width; ++slot) {
+            for (int axis = 0; is_used(node, slot) && axis < 3; ++axis) {
+                node.min[axis][slot] = mesh.min[axis];
+                node.max[axis][slot] = mesh.max[axis];
+            }
+        }
+    }
     for (int i = 0; i < 4000; ++i) {
         Ray<R> ray = some_ray(random);
         if (i % 4 == 0) { // along a triangle
-            const Corners<R> c = corners_of<R>(
-                mesh.data(), mesh.triangles[static_cast<std::size_t>(i) % mesh.triangles.size()]);
+            const Corners<R> c = corners_at<R>(mesh.data(), some_place(mesh, random));
             ray.org = c.a + (c.a - c.b) * random.number(0, 3);
             ray.dir = (c.a + (c.c - c.a) * random.number(0, 1)) - ray.org;
         }
-        const ShapeHit<R> got = intersect_mesh<false>(mesh.data(), ray);
-        const ShapeHit<R> expected = intersect_mesh<false>(flat.data(), ray);
+        const ShapeHit<R> got = nearest_in(mesh, ray);
+        const ShapeHit<R> expected = nearest_in(flat, ray);
         ASSERT_EQ(got.t, expected.t);
         if (got.t < infinity<R>()) {
-            ASSERT_EQ(mesh.triangles[got.part].id, flat.triangles[expected.part].id);
+            ASSERT_EQ(got.part, expected.part);
         }
-        ASSERT_EQ(intersect_mesh<true>(mesh.data(), ray).t < infinity<R>(), got.t < infinity<R>());
+        ASSERT_EQ(is_blocked_by(mesh, ray), got.t < infinity<R>());
     }
 }
 
@@ -181,16 +281,15 @@ TYPED_TEST(Hierarchy, RaysThroughSharedEdgesAndCornersDoNotLeak) {
     for (const double distance : {0.0, 1000.0}) {
         const Vec3<double> center{distance, 0.3 * distance, -distance};
         const MeshStorage mesh = ball_mesh(2, 1, center);
-        const MeshData data = mesh.data();
-        for (const MeshTriangle& triangle : mesh.triangles) {
-            const Corners<R> c = corners_of<R>(data, triangle);
+        for (const TrianglePlace& place : places_of(mesh)) {
+            const Corners<R> c = corners_at<R>(mesh.data(), place);
             for (int i = 0; i < 30; ++i) {
                 const Vec3<R> org = lanes<R>(center) + random.vector(0.4);
                 const R s = random.number(0, 1);
                 for (const Vec3<R>& target :
                      {c.a, (c.a + c.b) * R(0.5), c.a + (c.b - c.a) * s, c.a + (c.c - c.a) * s}) {
                     const Ray<R> ray{org, target - org};
-                    ASSERT_LT(intersect_mesh<false>(data, ray).t, infinity<R>());
+                    ASSERT_LT(nearest_in(mesh, ray).t, infinity<R>());
                 }
             }
         }
@@ -209,7 +308,7 @@ TYPED_TEST(Hierarchy, RaysThroughAxisParallelEdgesOfACubeDoNotLeak) {
     for (int i = -100; i <= 100; ++i) {
         for (int j = -100; j <= 100; ++j) {
             const Ray<R> ray{{0, 0, 0}, {static_cast<R>(i) / 100, static_cast<R>(j) / 100, 1}};
-            const ShapeHit<R> hit = intersect_mesh<false>(cube.data(), ray);
+            const ShapeHit<R> hit = nearest_in(cube, ray);
             ASSERT_EQ(hit.t, 1);
         }
     }
@@ -267,6 +366,82 @@ TYPED_TEST(Hierarchy, LanesFindWhatSingleRaysFind) {
             }
             ASSERT_EQ((bits(blocked) >> i & 1U) != 0, is_hit(expected));
         }
+    }
+}
+
+/// Blocks of rays that run alike: from one point, to one point, side by side, and off a curved mirror.
+TYPED_TEST(Hierarchy, PacksThatAreTracedTogetherFindWhatSingleRaysFind) {
+    using R = TypeParam;
+    using L = WidestLane<R>;
+    if constexpr (lane_count < L >> 1) {
+        Random<R> random(15);
+        const MeshStorage mesh = ball_mesh(3, 1, {0, 0, 0});
+        DynamicScene<R> scene;
+        scene.meshes.push_back(mesh.data());
+        fill(scene, random, 12);
+        prepare(scene);
+        int hit_count = 0;
+        for (int round = 0; round < 800; ++round) {
+            const int kind = round % 4;
+            const Vec3<R> org = random.vector(14), dir = random.direction();
+            const R spread = random.number(R(0.001), R(0.4));
+            std::array<Ray<L>, most_packs> rays;
+            std::array<Hit<L>, most_packs> hits;
+            std::array<MaskOf<L>, most_packs> blocked;
+            for (std::size_t p = 0; p < most_packs; ++p) {
+                blocked[p] = MaskOf<L>(false);
+                for (int i = 0; i < lane_count<L>; ++i) {
+                    Ray<R> ray{org, dir + random.vector(spread)};
+                    if (kind == 1) {
+                        ray.org = org + ray.dir * 10;
+                        ray.dir = org - ray.org;
+                        ray.t_max = R(0.99);
+                    } else if (kind == 2) {
+                        ray = {org + random.vector(spread), dir};
+                    } else if (kind == 3) {
+                        ray.org = org + random.vector(spread);
+                    }
+                    if (p % 5 == 4 || i % 3 == 2) {
+                        ray.t_max = -1; // takes no part
+                    }
+                    const auto put = [&](Vec3<L>& to, const Vec3<R>& from) {
+                        set_lane(to.x, i, from.x);
+                        set_lane(to.y, i, from.y);
+                        set_lane(to.z, i, from.z);
+                    };
+                    put(rays[p].org, ray.org);
+                    put(rays[p].dir, ray.dir);
+                    set_lane(rays[p].t_max, i, ray.t_max);
+                }
+            }
+            const Apex apex = kind == 0 ? Apex::origin : kind == 1 ? Apex::end : Apex::none;
+            std::array<Ray<L>, most_packs> closest = rays, feelers = rays;
+            if (kind == 1) {
+                any_hits<most_packs, DynamicScene<R>, L>(scene, feelers, apex, blocked);
+            } else {
+                closest_hits<most_packs, DynamicScene<R>, L>(scene, closest, apex, hits);
+            }
+            for (std::size_t p = 0; p < most_packs; ++p) {
+                for (int i = 0; i < lane_count<L>; ++i) {
+                    const Ray<R> ray{{lane(rays[p].org.x, i), lane(rays[p].org.y, i), lane(rays[p].org.z, i)},
+                                     {lane(rays[p].dir.x, i), lane(rays[p].dir.y, i), lane(rays[p].dir.z, i)},
+                                     R(0),
+                                     lane(rays[p].t_max, i)};
+                    const Hit<R> expected = closest_hit(scene, ray);
+                    hit_count += is_hit(expected) ? 1 : 0;
+                    if (kind == 1) {
+                        ASSERT_EQ((bits(blocked[p]) >> i & 1U) != 0, is_hit(expected));
+                        continue;
+                    }
+                    ASSERT_EQ(lane(hits[p].shape.t, i), expected.shape.t);
+                    ASSERT_EQ(lane(hits[p].id, i), expected.id);
+                    if (is_hit(expected)) {
+                        ASSERT_EQ(lane(hits[p].shape.part, i), expected.shape.part);
+                    }
+                }
+            }
+        }
+        EXPECT_GT(hit_count, 1000);
     }
 }
 

@@ -41,12 +41,20 @@ Scene floor_scene(const Phong<double>& material) {
     return scene;
 }
 
+Rgb<double> radiance(const Scene& scene, const RenderSettings& settings, RayCounts& counts, Ray<double> ray) {
+    const bool active = true;
+    Rgb<double> color;
+    detail::Shader<Scene, double>(scene, settings, counts)
+        .radiance({&ray, 1}, Apex::none, {&active, 1}, {&color, 1});
+    return color;
+}
+
 double seen(const Scene& scene, const V& eye, const V& dir, int depth = 5, bool shadows = true) {
     RayCounts counts;
     RenderSettings settings;
     settings.depth = depth;
     settings.shadows = shadows;
-    const Rgb<double> c = detail::Shader<Scene, double>(scene, settings, counts).radiance({eye, dir}, true);
+    const Rgb<double> c = radiance(scene, settings, counts, {eye, dir});
     EXPECT_EQ(c.r, c.g);
     EXPECT_EQ(c.r, c.b);
     return c.r;
@@ -189,8 +197,7 @@ TEST(Shade, FunctionsReadObjectAndWorldSpace) {
     scene.functions.push_back({{{Opcode::p_y}, {Opcode::world_y}, {Opcode::n_y}}, {0, 1, 2}});
     RayCounts counts;
     const RenderSettings settings;
-    const Rgb<double> c =
-        detail::Shader<Scene, double>(scene, settings, counts).radiance({{10, 25, 0}, {0, -1, 0}}, true);
+    const Rgb<double> c = radiance(scene, settings, counts, {{10, 25, 0}, {0, -1, 0}});
     EXPECT_DOUBLE_EQ(c.r, 1);
     EXPECT_DOUBLE_EQ(c.g, 21);
     EXPECT_DOUBLE_EQ(c.b, 1);

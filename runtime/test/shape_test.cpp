@@ -306,7 +306,9 @@ TEST(Mesh, NormalsPointOutOfTheCounterClockwiseSide) {
     for (int i = 0; i < 500; ++i) {
         const Vec3<double> outwards = random.direction();
         const Ray<double> ray{Vec3<double>{1, 2, 3} + outwards * 5.0, -outwards};
-        const ShapeHit<double> hit = intersect_mesh<false>(mesh.data(), ray);
+        ShapeHit<double> hit;
+        Ray<double> search = ray;
+        intersect_mesh<false, double>(mesh.data(), {&search, 1}, Apex::none, {&hit, 1});
         const Surface<double> flat = mesh_surface<false>(mesh.data(), ray, hit, true);
         const Surface<double> smooth = mesh_surface<true>(mesh.data(), ray, hit, true);
         EXPECT_GT(dot(flat.normal, outwards), 0.97);

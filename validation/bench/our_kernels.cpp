@@ -4,6 +4,7 @@
 #include "runtime/math/pack.h"
 #include "runtime/raycast.h"
 
+#include <array>
 #include <cstring>
 
 namespace scc::bench {
@@ -14,6 +15,30 @@ namespace {
 
 using L = WidestLane<float>;
 static_assert(packet % lane_count<L> == 0);
+
+/// The packs that are traced together: a square of packets in a tile, from `first` of its rays on.
+constexpr std::size_t packs_per_packet = packet / lane_count<L>;
+constexpr std::size_t packets_across = 4, packets_down = most_packs / packs_per_packet / packets_across;
+constexpr std::size_t tile_across = tile_side / packet_side;
+static_assert(packets_down >= 1 && tile_across % packets_across == 0 && tile_across % packets_down == 0);
+
+/// f(i, ray) for the packs of the square that begins at packet (x, y) of the tile at `first`.
+template <class F>
+void for_each_pack(std::size_t first, std::size_t x, std::size_t y, F&& f) {
+    for (std::size_t i = 0; i < most_packs; ++i) {
+        const std::size_t p = i / packs_per_packet;
+        const std::size_t in_tile = (y + p / packets_across) * tile_across + x + p % packets_across;
+        f(i, first + in_tile * packet + i % packs_per_packet * lane_count<L>);
+    }
+}
+template <class F>
+void for_each_square(std::size_t first, F&& f) {
+    for (std::size_t y = 0; y < tile_across; y += packets_down) {
+        for (std::size_t x = 0; x < tile_across; x += packets_across) {
+            f([&](auto&& g) { for_each_pack(first, x, y, g); });
+        }
+    }
+}
 constexpr std::uint32_t mesh_kind = primitive_kinds - 2;
 static_assert(is_mesh<ShapeOfKind<float, mesh_kind>>);
 
@@ -26,6 +51,22 @@ struct MeshScene : SceneBase<float> {
     static constexpr std::array<Phong<float>, 1> materials{};
     std::array<MeshData, 1> meshes;
 };
+
+/// The centres of a packet's pixels from its corner.
+const std::vector<float> centers_x = [] {
+    std::vector<float> x;
+    for (std::size_t i = 0; i < packet; ++i) {
+        x.push_back(static_cast<float>(i % packet_side) + 0.5F);
+    }
+    return x;
+}();
+const std::vector<float> centers_y = [] {
+    std::vector<float> y;
+    for (std::size_t i = 0; i < packet; ++i) {
+        y.push_back(static_cast<float>(i / packet_side) + 0.5F);
+    }
+    return y;
+}();
 
 L load(const std::vector<float>& numbers, std::size_t first) {
     L result;
@@ -47,19 +88,20 @@ struct OurMesh::Scene {
     MeshScene scene;
 
     void store(const Hit<L>& hit, Hits& hits, std::size_t first) const {
-        for (int i = 0; i < lane_count<L>; ++i) {
-            const float t = lane(hit.shape.t, i);
-            hits.t[first + static_cast<std::size_t>(i)] = t;
-            if (t < infinity<float>()) {
-                hits.triangle[first + static_cast<std::size_t>(i)] =
-                    storage.triangles[lane(hit.shape.part, i)].id;
-            }
+        store_lanes(hits.t.data() + first, hit.shape.t);
+        for (unsigned left = bits(hit.shape.t < infinity<L>()); left != 0; left &= left - 1) {
+            const int i = __builtin_ctz(left);
+            hits.triangle[first + static_cast<std::size_t>(i)] =
+                triangle_id(scene.meshes[0], place_of(lane(hit.shape.part, i)));
         }
     }
 };
 
-OurMesh::OurMesh(const TriangleMesh& mesh, BuildQuality, int) : scene_(std::make_unique<Scene>()) {
-    scene_->storage = build_mesh(mesh.positions, mesh.indices);
+OurMesh::OurMesh(const TriangleMesh& mesh, BuildQuality quality, int threads)
+    : scene_(std::make_unique<Scene>()) {
+    scene_->storage = build_mesh(mesh.positions, mesh.indices, {}, {},
+                                 {threads, quality == BuildQuality::quick ? runtime::BuildQuality::quick
+                                                                          : runtime::BuildQuality::high});
     scene_->scene.meshes[0] = scene_->storage.data();
 }
 OurMesh::OurMesh(OurMesh&&) noexcept = default;
@@ -67,35 +109,44 @@ OurMesh::~OurMesh() = default;
 
 std::size_t OurMesh::bytes() const {
     const MeshStorage& storage = scene_->storage;
-    return storage.positions.capacity() * sizeof(float) +
-           storage.triangles.capacity() * sizeof(MeshTriangle) + storage.nodes.capacity() * sizeof(BvhNode);
+    return storage.triangles.capacity() * sizeof(float) + storage.nodes.capacity() * sizeof(BvhNode);
 }
 
 void OurMesh::primary(const View& view, Hits& hits, int threads) const {
-    for_each_tile(view.rays(), threads, [&](std::size_t first, std::size_t last) {
-        for (; first < last; first += lane_count<L>) {
-            const Pixel corner = packet_corner(view.side, first);
-            L column, row;
-            for (int i = 0; i < lane_count<L>; ++i) {
-                const int pixel = static_cast<int>(first % packet) + i;
-                set_lane(column, i, static_cast<float>(corner.x + pixel % packet_side) + 0.5F);
-                set_lane(row, i, static_cast<float>(corner.y + pixel / packet_side) + 0.5F);
-            }
-            const Ray<L> ray =
-                camera_ray(view.camera, Projection::perspective, column, row, view.side, view.side);
-            scene_->store(closest_hit(scene_->scene, ray), hits, first);
-        }
+    for_each_tile(view.rays(), threads, [&](std::size_t begin, std::size_t) {
+        for_each_square(begin, [&](auto&& for_packs) {
+            std::array<Ray<L>, most_packs> rays;
+            std::array<Hit<L>, most_packs> found;
+            for_packs([&](std::size_t p, std::size_t first) {
+                const Pixel corner = packet_corner(view.side, first);
+                const std::size_t in_packet = first % packet;
+                rays[p] = camera_ray(view.camera, Projection::perspective,
+                                     L(static_cast<float>(corner.x)) + load(centers_x, in_packet),
+                                     L(static_cast<float>(corner.y)) + load(centers_y, in_packet), view.side,
+                                     view.side);
+            });
+            closest_hits<most_packs, MeshScene, L>(scene_->scene, rays, Apex::origin, found);
+            for_packs([&](std::size_t p, std::size_t first) { scene_->store(found[p], hits, first); });
+        });
     });
 }
 
 void OurMesh::occluded(const Rays& rays, std::vector<std::uint8_t>& blocked, int threads) const {
-    for_each_tile(rays.size(), threads, [&](std::size_t first, std::size_t last) {
-        for (; first < last; first += lane_count<L>) {
-            const unsigned mask = bits(any_hit(scene_->scene, load_rays(rays, first)));
-            for (unsigned i = 0; i < lane_count<L>; ++i) {
-                blocked[first + i] = static_cast<std::uint8_t>(mask >> i & 1U);
-            }
-        }
+    for_each_tile(rays.size(), threads, [&](std::size_t begin, std::size_t) {
+        for_each_square(begin, [&](auto&& for_packs) {
+            std::array<Ray<L>, most_packs> packs;
+            std::array<MaskOf<L>, most_packs> found;
+            for_packs([&](std::size_t p, std::size_t first) {
+                packs[p] = load_rays(rays, first);
+                found[p] = MaskOf<L>(false);
+            });
+            any_hits<most_packs, MeshScene, L>(scene_->scene, packs, Apex::end, found);
+            for_packs([&](std::size_t p, std::size_t first) {
+                for (unsigned i = 0; i < lane_count<L>; ++i) {
+                    blocked[first + i] = static_cast<std::uint8_t>(bits(found[p]) >> i & 1U);
+                }
+            });
+        });
     });
 }
 

@@ -1,0 +1,275 @@
+#pragma once
+
+#include "runtime/accel/bvh.h"
+#include "runtime/bounds.h"
+#include "runtime/math/pack.h"
+#include "runtime/ray.h"
+
+#include <cstddef>
+#include <limits>
+#include <span>
+
+/// Beams: many rays that run alike, as one body for the test against boxes.
+namespace scc::runtime {
+
+/// What many rays have in common.
+enum class Apex {
+    none,
+    origin, ///< all start at exactly the same point
+    end     ///< all pass through one point at t = 1, up to rounding
+};
+
+/// The packs that are traced together.
+inline constexpr int most_packs = 16;
+using PackLanes = Pack<float, most_packs>;
+
+template <class L>
+constexpr MaskOf<L> is_active(const Ray<L>& ray) {
+    return ray.t_max >= ray.t_min;
+}
+
+/// A coordinate axis along which all rays of a beam run, and where their depth is 0 on it.
+struct BeamFrame {
+    int axis = 2;
+    bool forward = true; ///< towards greater coordinates
+    float start = 0;     ///< of the coordinate, times -1 if not forward
+
+    int across(int i) const { return (axis + 1 + i) % 3; }
+};
+
+/// Where rays are at a depth s >= 0: between low + low_slope s and high + high_slope s on each of the two
+/// other axes, for s in [near, far]. One beam (F = float) or one in each lane.
+template <class F>
+struct Beam {
+    F near{infinity<F>()}, far{-infinity<F>()}; ///< as initialised: no rays
+    F low[2] = {infinity<F>(), infinity<F>()};
+    F high[2] = {-infinity<F>(), -infinity<F>()};
+    F low_slope[2] = {infinity<F>(), infinity<F>()};
+    F high_slope[2] = {-infinity<F>(), -infinity<F>()};
+};
+
+namespace detail {
+
+template <class L>
+const L& component(const Vec3<L>& v, int axis) {
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
+/// where >= 0 ? a : b, for one number or as many as a has.
+template <class L>
+L by_sign(float where, const L& a, const L& b) {
+    return where >= 0 ? a : b;
+}
+template <class L>
+L by_sign(const L& where, const L& a, const L& b) {
+    return choose(where >= 0, a, b);
+}
+
+} // namespace detail
+
+/// Which boxes a beam meets, or which beams a box: F or B is L, the other may be float. `near` becomes the
+/// depth at which they meet at the earliest. Errs on the side of meeting, also with NaN.
+template <class L, class F, class B>
+MaskOf<L> meets(const BeamFrame& frame, const Beam<F>& beam, const B (&min)[3], const B (&max)[3], L& near) {
+    const L first = frame.forward ? L(min[frame.axis]) : -L(max[frame.axis]);
+    const L last = frame.forward ? L(max[frame.axis]) : -L(min[frame.axis]);
+    near = maximum(L(beam.near), first - L(frame.start));
+    const L far = minimum(L(beam.far), last - L(frame.start));
+    MaskOf<L> met = near <= far;
+    for (int i = 0; i < 2; ++i) {
+        const L lowest =
+            L(beam.low[i]) + L(beam.low_slope[i]) * detail::by_sign(beam.low_slope[i], near, far);
+        const L highest =
+            L(beam.high[i]) + L(beam.high_slope[i]) * detail::by_sign(beam.high_slope[i], far, near);
+        met = met & !(L(max[frame.across(i)]) < lowest) & !(L(min[frame.across(i)]) > highest);
+    }
+    return met;
+}
+
+/// The beams of up to most_packs packs of rays, each pack's and that of all together.
+template <class L>
+class BeamSet {
+public:
+    using R = RealOf<L>;
+
+    /// Whether the rays run alike enough; only then may the rest be called. The boxes to be tested lie within
+    /// `root`.
+    bool gather(std::span<const Ray<L>> rays, Apex apex, const Bounds<float>& root);
+
+    const BeamFrame& frame() const { return frame_; }
+    const Beam<float>& all() const { return all_; }
+    /// The point that all rays have in common, if any; of an end, up to rounding.
+    Vec3<R> apex_point(std::span<const Ray<L>> rays) const {
+        for (const Ray<L>& ray : rays) {
+            if (const Seen here = seen(ray); any(here.active)) {
+                const int i = first_lane(here.active);
+                return {lane(here.org.x, i), lane(here.org.y, i), lane(here.org.z, i)};
+            }
+        }
+        return {};
+    }
+    /// At least every coordinate of the rays' ends and of the root box.
+    float scale() const { return scale_; }
+    /// The packs that still have rays to trace and whose beams meet the box of the node's child, as bits.
+    unsigned packs_in(const BvhNode& node, std::uint32_t slot) const {
+        const float min[3] = {node.min[0][slot], node.min[1][slot], node.min[2][slot]};
+        const float max[3] = {node.max[0][slot], node.max[1][slot], node.max[2][slot]};
+        PackLanes near;
+        return bits(meets(frame_, each_, min, max, near));
+    }
+    /// After t_max of a pack's rays was lowered.
+    void shorten(int pack, const Ray<L>& ray) {
+        set_lane(each_.far, pack, far_of(seen(ray)));
+        all_.far = largest(each_.far);
+    }
+
+private:
+    /// Steeper or more spread rays are traced one by one.
+    static constexpr float steepest = 4, most_spread = 0.6F;
+
+    /// A ray, or its reverse from the common end.
+    struct Seen {
+        Vec3<L> org, dir;
+        L t_max;
+        MaskOf<L> active;
+    };
+    Seen seen(const Ray<L>& ray) const {
+        if (apex_ == Apex::end) {
+            return {ray.org + ray.dir, -ray.dir, 1 - ray.t_min, is_active(ray)};
+        }
+        return {ray.org, ray.dir, ray.t_max, is_active(ray)};
+    }
+    L depth(const Vec3<L>& v) const {
+        const L& x = detail::component(v, frame_.axis);
+        return frame_.forward ? x : -x;
+    }
+    float far_of(const Seen& ray) const {
+        const L end = depth(ray.org) + ray.t_max * depth(ray.dir);
+        return static_cast<float>(largest(choose(ray.active, end, -infinity<L>()))) - frame_.start + pad_;
+    }
+    bool choose_frame(std::span<const Ray<L>> rays);
+    bool add(int pack, const Seen& ray);
+
+    Apex apex_ = Apex::none;
+    BeamFrame frame_;
+    float scale_ = 0, pad_ = 0;
+    Beam<float> all_;
+    Beam<PackLanes> each_;
+};
+
+template <class L>
+bool BeamSet<L>::gather(std::span<const Ray<L>> rays, Apex apex, const Bounds<float>& root) {
+    apex_ = apex;
+    if (!choose_frame(rays)) {
+        return false;
+    }
+    L size(0), start = infinity<L>();
+    for (const Ray<L>& ray : rays) {
+        const Seen here = seen(ray);
+        if (any(here.active & !(depth(here.dir) > 0))) {
+            return false;
+        }
+        size = maximum(size, choose(here.active, largest_component(absolute(here.org)), L(0)));
+        start = minimum(start, choose(here.active, depth(here.org), infinity<L>()));
+    }
+    scale_ = static_cast<float>(largest(size)) +
+             largest_component(maximum(absolute(root.min), absolute(root.max)));
+    frame_.start = static_cast<float>(smallest(start));
+    // What the intercepts, the slopes and the test itself lose, and twice what SlabRay adds: 128 roundings.
+    pad_ = 64 * std::numeric_limits<float>::epsilon() * scale_;
+    if (!(scale_ < 1e30F)) {
+        return false;
+    }
+    all_ = {};
+    each_ = {};
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (!add(static_cast<int>(i), seen(rays[i]))) {
+            return false;
+        }
+    }
+    return all_.high_slope[0] - all_.low_slope[0] <= most_spread &&
+           all_.high_slope[1] - all_.low_slope[1] <= most_spread;
+}
+
+/// Takes the axis along which some ray of the beam runs most.
+template <class L>
+bool BeamSet<L>::choose_frame(std::span<const Ray<L>> rays) {
+    for (const Ray<L>& ray : rays) {
+        const Seen here = seen(ray);
+        if (none(here.active)) {
+            continue;
+        }
+        const int i = first_lane(here.active);
+        const Vec3<R> dir{lane(here.dir.x, i), lane(here.dir.y, i), lane(here.dir.z, i)};
+        const Vec3<R> size = absolute(dir);
+        frame_.axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+        frame_.forward = detail::component(dir, frame_.axis) > 0;
+        return true;
+    }
+    return false;
+}
+
+template <class L>
+bool BeamSet<L>::add(int pack, const Seen& ray) {
+    if (none(ray.active)) {
+        return true;
+    }
+    const L inverse = 1 / depth(ray.dir);
+    const L gone = depth(ray.org) - L(static_cast<R>(frame_.start));
+    const float near = static_cast<float>(smallest(choose(ray.active, gone, infinity<L>()))) - pad_;
+    const float far = far_of(ray);
+    set_lane(each_.near, pack, near);
+    set_lane(each_.far, pack, far);
+    all_.near = minimum(all_.near, near);
+    all_.far = maximum(all_.far, far);
+    for (int i = 0; i < 2; ++i) {
+        const L slope = detail::component(ray.dir, frame_.across(i)) * inverse;
+        if (any(ray.active & !(absolute(slope) <= L(static_cast<R>(steepest))))) {
+            return false;
+        }
+        const L& org = detail::component(ray.org, frame_.across(i));
+        const L from = apex_ == Apex::origin ? org : org - slope * gone;
+        const auto low = [&](const L& x) {
+            return static_cast<float>(smallest(choose(ray.active, x, infinity<L>())));
+        };
+        const auto high = [&](const L& x) {
+            return static_cast<float>(largest(choose(ray.active, x, -infinity<L>())));
+        };
+        const float values[] = {low(from) - pad_, high(from) + pad_, low(slope), high(slope)};
+        set_lane(each_.low[i], pack, values[0]);
+        set_lane(each_.high[i], pack, values[1]);
+        set_lane(each_.low_slope[i], pack, values[2]);
+        set_lane(each_.high_slope[i], pack, values[3]);
+        all_.low[i] = minimum(all_.low[i], values[0]);
+        all_.high[i] = maximum(all_.high[i], values[1]);
+        all_.low_slope[i] = minimum(all_.low_slope[i], values[2]);
+        all_.high_slope[i] = maximum(all_.high_slope[i], values[3]);
+    }
+    return true;
+}
+
+/// Calls leaf(packs, first, count) for the leaves that some packs of the beam may meet, near ones first,
+/// until it returns true; it may lower t_max of rays and tell `beams`.
+template <class L, class Leaf>
+void traverse_beams(const BvhNode* nodes, const BeamSet<L>& beams, Leaf&& leaf) {
+    using C = Pack<float, bvh_width>;
+    traverse<float>(
+        nodes,
+        [&](const BvhNode& node, float(&near)[bvh_width]) {
+            const C min[3] = {load_lanes<C>(node.min[0]), load_lanes<C>(node.min[1]),
+                              load_lanes<C>(node.min[2])};
+            const C max[3] = {load_lanes<C>(node.max[0]), load_lanes<C>(node.max[1]),
+                              load_lanes<C>(node.max[2])};
+            C begin;
+            const unsigned met = bits(meets(beams.frame(), beams.all(), min, max, begin));
+            store_lanes(near, begin);
+            return met;
+        },
+        [&](float near) { return near <= beams.all().far; },
+        [&](const BvhNode& node, std::uint32_t slot, const BvhLeaf& found) {
+            const unsigned packs = beams.packs_in(node, slot);
+            return packs != 0 && leaf(packs, found.first, found.count);
+        });
+}
+
+} // namespace scc::runtime
