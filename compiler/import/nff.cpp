@@ -68,6 +68,9 @@ public:
     }
     void skip(std::size_t length) { position_ += length; }
 
+    /// After line_goes_on(): whether the line ends in a comment.
+    bool comment_follows() const { return position_ < text_.size() && text_[position_] == '#'; }
+
     Place place() const {
         return {static_cast<std::uint32_t>(line_), static_cast<std::uint32_t>(position_ - line_start_ + 1)};
     }
@@ -96,6 +99,7 @@ public:
             if (words_.line_goes_on()) {
                 fail(words_.place(), "`{}` is more than {} takes", shown(words_.peek()), entity_);
             }
+            ends_a_line_ = words_.comment_follows();
         }
         if (!has_view_) {
             fail(words_.place(), "the file ends without a view (`v`)");
@@ -113,7 +117,9 @@ private:
     }
 
     bool find() {
-        return words_.find([&](std::string_view text) { file_.items.push_back(Comment{text}); });
+        return words_.find([&](std::string_view text) {
+            file_.items.push_back(Comment{text, std::exchange(ends_a_line_, false)});
+        });
     }
 
     void entity(std::string_view word, Place place) {
@@ -349,7 +355,7 @@ private:
 
     Words words_;
     const char* entity_ = "";
-    bool has_view_ = false, has_fill_ = false;
+    bool has_view_ = false, has_fill_ = false, ends_a_line_ = false;
     File file_;
 };
 

@@ -48,6 +48,7 @@ struct Light {
 
 struct Comment {
     std::string_view text;
+    bool ends_a_line = false; ///< that an item begins
 };
 struct Fill {
     Place place;

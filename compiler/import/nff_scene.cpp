@@ -121,8 +121,14 @@ private:
         }
     }
 
-    /// Comments wait for what follows them.
-    void write_item(const Comment& comment) { comments_.push_back(comment.text); }
+    /// Comments wait for what follows them, but for one that ends a shape's line.
+    void write_item(const Comment& comment) {
+        if (comment.ends_a_line && in_body_) {
+            write_comment(comment.text);
+        } else {
+            comments_.push_back(comment.text);
+        }
+    }
 
     void write_comments() {
         for (const std::string_view text : std::exchange(comments_, {})) {
