@@ -15,8 +15,8 @@ namespace scc::compiler::nff {
 
 namespace {
 
-// More corners than any outline that someone drew; cutting ears off takes time with the square.
-constexpr std::int64_t most_corners = 1 << 16;
+// More than any outline that someone drew; cutting ears off takes time with the square.
+constexpr std::int64_t most_corners = 1 << 14;
 constexpr int largest_size = 1 << 16;
 // Products of two such numbers are finite.
 constexpr double largest_number = 1e150;

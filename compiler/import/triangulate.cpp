@@ -48,31 +48,28 @@ public:
             next_.push_back(i + 1 == count_ ? 0 : i + 1);
             previous_.push_back(i == 0 ? count_ - 1 : i - 1);
         }
+        is_cut_.resize(count_);
         count_ = flat ? 0 : count_;
     }
 
     Triangulation cut() {
         find_reflex();
-        std::uint32_t corner = 1, tried = 0; // of a quadrangle the first three, and the rest
-        while (count_ > 3) {
-            if (tried == count_) { // no ear left: a simple outline has two
-                result_.crosses_itself = true;
-                corner = most_convex(corner);
+        // Every second corner first, so that the triangles do not all fan out from one.
+        for (const std::uint32_t first : {1U, 0U}) {
+            for (std::uint32_t i = first; i < count_; i += 2) {
+                waiting_.push_back(i);
             }
-            if (tried == count_ || is_ear(corner)) {
-                const std::uint32_t after = next_[corner];
+        }
+        // Whether a corner is an ear changes only when a neighbour is cut off.
+        for (std::size_t i = 0; i < waiting_.size() && count_ > 3; ++i) {
+            const std::uint32_t corner = waiting_[i];
+            if (!is_cut_[corner] && is_ear(corner)) {
                 take(corner);
-                // Not the neighbour next, so that the triangles do not all fan out from one corner.
-                corner = next_[after];
-                tried = 0;
-            } else {
-                corner = next_[corner];
-                ++tried;
+                waiting_.push_back(previous_[corner]);
+                waiting_.push_back(next_[corner]);
             }
         }
-        if (count_ == 3) {
-            emit(corner);
-        }
+        cut_the_rest();
         return std::move(result_);
     }
 
@@ -113,14 +110,24 @@ private:
         return (b.x - a.x) * (c.x - b.x) + (b.y - a.y) * (c.y - b.y) < 0;
     }
 
-    std::uint32_t most_convex(std::uint32_t start) const {
-        std::uint32_t best = start;
-        for (std::uint32_t i = next_[start]; i != start; i = next_[i]) {
-            if (turn(i) > turn(best)) {
-                best = i;
+    /// A simple outline has two ears as long as it has more than three corners.
+    void cut_the_rest() {
+        std::uint32_t corner = 0;
+        while (corner < is_cut_.size() && is_cut_[corner]) {
+            ++corner;
+        }
+        result_.crosses_itself = count_ > 3;
+        for (std::uint32_t tried = 0; count_ > 3; corner = next_[corner]) {
+            if (turn(corner) > 0 || tried == count_) {
+                take(corner);
+                tried = 0;
+            } else {
+                ++tried;
             }
         }
-        return best;
+        if (count_ == 3) {
+            emit(corner);
+        }
     }
 
     void take(std::uint32_t i) {
@@ -128,6 +135,7 @@ private:
         const std::uint32_t before = previous_[i], after = next_[i];
         next_[before] = after;
         previous_[after] = before;
+        is_cut_[i] = true;
         is_reflex_[i] = false;
         --count_;
         // Cutting an ear can only make its neighbours less reflex, but a crossing outline knows no rules.
@@ -153,8 +161,8 @@ private:
 
     std::uint32_t count_; ///< of corners that are left
     std::vector<Point> points_;
-    std::vector<std::uint32_t> next_, previous_, reflex_;
-    std::vector<bool> is_reflex_;
+    std::vector<std::uint32_t> next_, previous_, reflex_, waiting_;
+    std::vector<bool> is_reflex_, is_cut_;
     std::size_t taken_ = 0;
     Triangulation result_;
 };

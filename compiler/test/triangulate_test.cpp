@@ -61,7 +61,7 @@ TEST(Triangulate, CutsAQuadrangleInTwo) {
     const Triangulation cut = triangulate(Outline{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
     ASSERT_EQ(cut.triangles.size(), 2U);
     EXPECT_EQ(cut.triangles[0], (std::array<std::uint32_t, 3>{0, 1, 2}));
-    EXPECT_EQ(cut.triangles[1], (std::array<std::uint32_t, 3>{2, 3, 0}));
+    EXPECT_EQ(cut.triangles[1], (std::array<std::uint32_t, 3>{3, 0, 2}));
 }
 
 TEST(Triangulate, CoversConvexAndConcaveOutlines) {
