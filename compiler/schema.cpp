@@ -402,14 +402,22 @@ Constructor raster() {
 // The language's other words: known, so that a scene that uses one is told the truth.
 void add_unsupported(std::vector<Constructor>& rows) {
     const std::pair<std::string_view, TypeKind> words[] = {
-        {"cone", TypeKind::shape},       {"torus", TypeKind::shape},
-        {"quadric", TypeKind::shape},    {"heightfield", TypeKind::shape},
-        {"implicit", TypeKind::shape},   {"polyline", TypeKind::shape},
-        {"union", TypeKind::shape},      {"intersection", TypeKind::shape},
-        {"difference", TypeKind::shape}, {"spherical_camera", TypeKind::camera},
-        {"spot_light", TypeKind::light}, {"rectangle_light", TypeKind::light},
-        {"sky_light", TypeKind::light},  {"glass", TypeKind::material},
-        {"pbr", TypeKind::material},     {"image", TypeKind::image}};
+        {"torus", TypeKind::shape},
+        {"quadric", TypeKind::shape},
+        {"heightfield", TypeKind::shape},
+        {"implicit", TypeKind::shape},
+        {"polyline", TypeKind::shape},
+        {"union", TypeKind::shape},
+        {"intersection", TypeKind::shape},
+        {"difference", TypeKind::shape},
+        {"spherical_camera", TypeKind::camera},
+        {"spot_light", TypeKind::light},
+        {"rectangle_light", TypeKind::light},
+        {"sky_light", TypeKind::light},
+        {"glass", TypeKind::material},
+        {"pbr", TypeKind::material},
+        {"image", TypeKind::image},
+    };
     for (const auto& [name, type] : words) {
         rows.push_back({.name = name, .type = type, .supported = false, .doc = "not supported yet"});
     }

@@ -28,6 +28,15 @@ std::string_view rule(const runtime::Cylinder<double>& c) {
     return c.from == c.to ? "`from` and `to` are the same point; a cylinder has a length" : "";
 }
 
+std::string_view rule(const runtime::Cone<double>& c) {
+    if (c.from == c.to) {
+        return "`from` and `to` are the same point; a cone has a length";
+    }
+    return c.radius_from > 0 || c.radius_to > 0
+               ? ""
+               : "both radii are 0; at least one end of a cone has a radius greater than 0";
+}
+
 std::string_view rule(const runtime::Disc<double>& d) {
     return d.hole < d.radius ? "" : "the hole is as large as the disc; `hole` is less than `radius`";
 }

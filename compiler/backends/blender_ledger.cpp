@@ -28,7 +28,8 @@ constexpr double smallest_scene = 1e-5;
 template <class Shape>
 Account account(const Shape&, bool mirror, bool smooth, bool pattern) {
     using namespace runtime;
-    if constexpr (std::is_same_v<Shape, Sphere<double>> || std::is_same_v<Shape, Cylinder<double>>) {
+    if constexpr (std::is_same_v<Shape, Sphere<double>> || std::is_same_v<Shape, Cylinder<double>> ||
+                  std::is_same_v<Shape, Cone<double>>) {
         return {Fidelity::approximated,
                 "hit and normal exact, computed in the material; outline and shadow by a mesh; bound in "
                 "pixels, for a "

@@ -58,6 +58,12 @@ bool encloses(const runtime::Cylinder<double>& cylinder, const Vec3<double>& eye
     const double along = dot(start, axis) / dot(axis, axis);
     return along >= 0 && along <= 1 && length(start - along * axis) <= cylinder.radius;
 }
+bool encloses(const runtime::Cone<double>& cone, const Vec3<double>& eye) {
+    const Vec3<double> axis = cone.to - cone.from, start = eye - cone.from;
+    const double along = dot(start, axis) / dot(axis, axis);
+    const double radius = cone.radius_from + along * (cone.radius_to - cone.radius_from);
+    return along >= 0 && along <= 1 && length(start - along * axis) <= radius;
+}
 
 // From which sides a mirror ray that leaves a shape can meet the same shape again.
 struct MirrorView {
@@ -72,7 +78,7 @@ MirrorView sees_itself(const Shape& shape, const Vec3<double>& eye) {
         return {shape.smooth, shape.smooth};
     } else if constexpr (std::is_same_v<Shape, Plane<double>> || std::is_same_v<Shape, Disc<double>>) {
         return {false, false};
-    } else if constexpr (std::is_same_v<Shape, Cylinder<double>>) {
+    } else if constexpr (std::is_same_v<Shape, Cylinder<double>> || std::is_same_v<Shape, Cone<double>>) {
         return {false, !shape.caps || encloses(shape, eye)};
     } else {
         return {false, encloses(shape, eye)};
@@ -196,6 +202,14 @@ private:
         want("cylinder");
         add_curved(object);
         if (cylinder.caps) {
+            want("cap");
+            want("flat");
+        }
+    }
+    void add(const ir::Object& object, const runtime::Cone<double>& cone) {
+        want("cone");
+        add_curved(object);
+        if (cone.caps) {
             want("cap");
             want("flat");
         }

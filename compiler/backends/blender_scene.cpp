@@ -198,6 +198,15 @@ private:
         return fmt::format("type=\"cylinder\", start={}, end={}, radius={}, caps={}", python(c.from),
                            python(c.to), python(c.radius), c.caps ? "True" : "False");
     }
+    /// Begins at the wider end. `taper`: how much of the radius is lost towards the other.
+    static std::string described(const runtime::Cone<double>& c) {
+        const bool narrows = c.radius_to <= c.radius_from;
+        const double wide = narrows ? c.radius_from : c.radius_to;
+        const double narrow = narrows ? c.radius_to : c.radius_from;
+        return fmt::format("type=\"cone\", start={}, end={}, radius={}, taper={}, caps={}",
+                           python(narrows ? c.from : c.to), python(narrows ? c.to : c.from), python(wide),
+                           python((wide - narrow) / wide), c.caps ? "True" : "False");
+    }
     static std::string described(const runtime::Disc<double>& d) {
         const std::string hole = d.hole > 0 ? ", hole=" + python(d.hole) : "";
         return fmt::format("type=\"disc\", center={}, normal={}, radius={}{}", python(d.center),

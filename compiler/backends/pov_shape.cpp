@@ -36,6 +36,11 @@ struct ToPov {
         return {"cylinder",
                 {fmt::format("{}, {}, {}{}", at(c.from), at(c.to), size(c.radius), c.caps ? "" : " open")}};
     }
+    PovShape operator()(const runtime::Cone<double>& c) const {
+        return {"cone",
+                {fmt::format("{}, {}, {}, {}{}", at(c.from), size(c.radius_from), at(c.to), size(c.radius_to),
+                             c.caps ? "" : " open")}};
+    }
     PovShape operator()(const runtime::Disc<double>& d) const {
         return {"disc",
                 {fmt::format("{}, {}, {}, {}", at(d.center), pov_vector(d.normal), size(d.radius),

@@ -135,6 +135,20 @@ struct Measure {
             include_distance(std::min(std::hypot(outside, along), std::hypot(outside, along - height)));
         }
     }
+    void operator()(const runtime::Cone<double>& c) {
+        include_box(c.bounds());
+        // In the half plane through the axis the side is a line, and so is each cap.
+        const Point p = in_object() - c.from;
+        const double height = length(c.to - c.from);
+        const double along = dot(p, c.to - c.from) / height;
+        const double across = length(p - (c.to - c.from) * (along / height));
+        const Point here{across, along, 0}, low{c.radius_from, 0, 0}, high{c.radius_to, height, 0};
+        include_distance(segment_distance(here, low, high));
+        if (c.caps) {
+            include_distance(std::min(std::hypot(std::max(0.0, across - c.radius_from), along),
+                                      std::hypot(std::max(0.0, across - c.radius_to), along - height)));
+        }
+    }
     void operator()(const runtime::Disc<double>& d) {
         include_box(d.bounds());
         const Point p = in_object() - d.center;

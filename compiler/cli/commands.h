@@ -31,6 +31,7 @@ void add_params(CLI::App& app, Run& selected);
 void add_render(CLI::App& app, Run& selected);
 void add_build(CLI::App& app, Run& selected);
 void add_export(CLI::App& app, Run& selected);
+void add_import(CLI::App& app, Run& selected);
 void add_validate(CLI::App& app, Run& selected);
 void add_compare(CLI::App& app, Run& selected);
 void add_doctor(CLI::App& app, Run& selected);

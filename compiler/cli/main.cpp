@@ -44,6 +44,7 @@ Examples:
   scc build scene.scn -o scene && ./scene -o scene.png
                                                  make a program that draws it
   scc export pov scene.scn -o scene.pov          hand it to POV-Ray, or to Blender
+  scc import nff balls.nff -o balls.scn          turn a Neutral File Format scene into one of ours
   scc validate scene.scn --against pov,blender,native --report out
                                                  compare our picture with theirs
 
@@ -60,7 +61,7 @@ int main(int argc, char** argv) {
     app.footer(examples);
     cli::Run selected;
     for (auto* add : {cli::add_check, cli::add_params, cli::add_render, cli::add_build, cli::add_export,
-                      cli::add_validate, cli::add_compare, cli::add_doctor}) {
+                      cli::add_import, cli::add_validate, cli::add_compare, cli::add_doctor}) {
         add(app, selected);
     }
     try {

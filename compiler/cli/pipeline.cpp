@@ -22,9 +22,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uintmax_t largest_scene_file = std::uintmax_t{1} << 30;
+constexpr std::uintmax_t largest_text_file = std::uintmax_t{1} << 30;
 
-std::string read_scene_file(const std::string& path) {
+} // namespace
+
+std::string read_text_file(const std::string& path) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (!fs::exists(status)) {
@@ -33,7 +35,7 @@ std::string read_scene_file(const std::string& path) {
     if (fs::is_directory(status)) {
         throw host::FileError(fmt::format("cannot read `{}`: it is a folder", path));
     }
-    if (fs::is_regular_file(status) && fs::file_size(path, error) > largest_scene_file) {
+    if (fs::is_regular_file(status) && fs::file_size(path, error) > largest_text_file) {
         throw host::FileError(fmt::format("cannot read `{}`: it is larger than 1 GiB", path));
     }
     std::ifstream stream(path, std::ios::binary);
@@ -43,6 +45,8 @@ std::string read_scene_file(const std::string& path) {
     }
     return text;
 }
+
+namespace {
 
 std::vector<lang::Definition> parse_definitions(const std::vector<std::string>& texts) {
     std::vector<lang::Definition> definitions;
@@ -83,7 +87,7 @@ void timed(Loaded& loaded, const char* stage, Run run) {
 Loaded load(const SceneOptions& options, Stage last) {
     Loaded loaded;
     const std::vector<lang::Definition> definitions = parse_definitions(options.definitions);
-    const lang::FileId file = loaded.sources.add(options.file, read_scene_file(options.file));
+    const lang::FileId file = loaded.sources.add(options.file, read_text_file(options.file));
     timed(loaded, "parse", [&] {
         loaded.tokens = lang::lex(loaded.sources, file, loaded.diagnostics);
         if (last != Stage::tokens) {

@@ -34,6 +34,9 @@ struct Loaded {
 
 enum class Stage { tokens, tree, module, scene };
 
+/// A file that the command line names. Throws host::FileError.
+std::string read_text_file(const std::string& path);
+
 /// Reads the file and runs the stages up to `last`, or until one reports errors. Throws host::FileError if
 /// the scene file cannot be read, host::UsageError for a -D without `=`.
 Loaded load(const SceneOptions& options, Stage last);

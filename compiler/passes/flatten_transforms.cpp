@@ -77,6 +77,15 @@ bool flatten(runtime::Cylinder<double>& c, const Affine<double>& a) {
     return scale.has_value();
 }
 
+bool flatten(runtime::Cone<double>& c, const Affine<double>& a) {
+    const auto scale = similarity(a);
+    if (scale) {
+        c = {transform_point(a, c.from), transform_point(a, c.to), c.radius_from * *scale,
+             c.radius_to * *scale, c.caps};
+    }
+    return scale.has_value();
+}
+
 bool flatten(runtime::Disc<double>& d, const Affine<double>& a) {
     const auto scale = similarity(a);
     if (scale) {

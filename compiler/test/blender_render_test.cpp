@@ -146,6 +146,9 @@ group {
   box { min = (-0.5, 0, -0.5), max = (0.5, 1, 0.5), transform = shear then rotate_y(25deg) then translate(-1, 0, 0) }
   cylinder { from = (0, 0, 0), to = (0.3, 1.4, 0), radius = 0.4, transform = mirrored then shear then translate(0.6, 0, 0) }
   cylinder { from = (0, 0, 0), to = (0.3, 1, 0.2), radius = 0.5, caps = false, transform = shear then translate(2, 0, 1) }
+  cone { from = (0, 0, 0), to = (0.3, 1.1, 0), radius_from = 0.5, radius_to = 0.2, transform = mirrored then shear then translate(-3.1, 0, 2) }
+  cone { from = (0, 0, 0), to = (0.2, 0.9, 0.2), radius_from = 0, radius_to = 0.5, caps = false, transform = shear then translate(2.8, 0, 2.4) }
+  cone { radius_from = 0.4, transform = scale(1, 0.8, 1) then translate(0.1, 0, 2.6) }
   disc { center = (0, 0.7, 0), normal = (1, 0.3, 1), radius = 0.7, hole = 0.3, transform = mirrored then translate(3.4, 0, 0.4) }
   triangle { points = [(0, 0, 0), (1.2, 0, 0.2), (0.5, 1.2, 0)], transform = mirrored then translate(-1.6, 0, 1.8) }
   triangle { points = [(0, 0, 0), (1.2, 0, 0.2), (0.5, 1.2, 0)], normals = [(-0.5, 0, 1), (0.5, 0, 1), (0, 0.6, 1)],

@@ -51,6 +51,8 @@ let shiny = phong { diffuse = checker, specular = rgb(1, 1, 1), emission = rgb(0
 sphere { material = two_sided { front = mirror, back = shiny }, transform = scale(1, 2, 1) then rotate_x(20deg) }
 cylinder { material = shiny }
 cylinder { caps = false, material = mirror }
+cone { material = shiny }
+cone { radius_to = 0.5, caps = false, material = mirror }
 box { material = shiny }
 disc { hole = 0.5 }
 triangle { points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)], normals = [(0, 0, 1), (0, 1, 1), (1, 0, 1)] }
@@ -68,8 +70,9 @@ TEST(BlenderLibrary, KeepsWhatOneOfTheFeaturesAsksFor) {
 
 TEST(Blender, LeavesOutWhatTheSceneDoesNotNeed) {
     const std::string script = script_of("box { }\n" + std::string(lamp));
-    for (const char* absent : {"sphere", "cylinder", "plane_", "disc", "triangle", "Glossy", "Translucent",
-                               "SUN", "curved", "FUNCTIONS", "select", "MESHES", "base64", "circle", "#:"}) {
+    for (const char* absent :
+         {"sphere", "cylinder", "cone", "taper", "plane_", "disc", "triangle", "Glossy", "Translucent", "SUN",
+          "curved", "FUNCTIONS", "select", "MESHES", "base64", "circle", "#:"}) {
         EXPECT_EQ(script.find(absent), std::string::npos) << absent;
     }
     EXPECT_NE(script.find("def box_mesh"), std::string::npos);
@@ -94,6 +97,8 @@ TEST(BlenderBounces, AreNoMoreThanCanBeSeen) {
         bounces_of("cylinder { caps = false, material = two_sided { front = mirror, back = phong { } } }"),
         1);
     EXPECT_EQ(bounces_of("cylinder { caps = false, material = mirror }"), 5) << "the inside reflects itself";
+    EXPECT_EQ(bounces_of("cone { material = mirror }"), 1);
+    EXPECT_EQ(bounces_of("cone { caps = false, material = mirror }"), 5);
     EXPECT_EQ(bounces_of("box { material = mirror }\nplane { offset = -2, material = mirror }"), 5);
     EXPECT_EQ(
         bounces_of("box { material = mirror }\nbox { min = (3, 0, 0), max = (4, 1, 1), material = mirror }\n"
@@ -120,6 +125,7 @@ TEST(BlenderLedger, TellsHowEachFeatureGoesOver) {
     emit_blender(scene, ledger);
     for (const auto& [feature, fidelity] : {std::pair{"sphere", Fidelity::approximated},
                                             {"cylinder", Fidelity::approximated},
+                                            {"cone", Fidelity::approximated},
                                             {"box", Fidelity::exact},
                                             {"plane", Fidelity::approximated},
                                             {"triangle", Fidelity::exact},

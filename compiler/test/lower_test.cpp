@@ -105,6 +105,7 @@ TEST(Lower, LightSaysWhereItIsInOneWay) {
 TEST(Lower, ReportsShapesThatEncloseNothing) {
     for (const char* shape :
          {"box { min = (0, 0, 0), max = (1, 0, 1) }", "cylinder { from = (1, 1, 1), to = (1, 1, 1) }",
+          "cone { from = (1, 1, 1), to = (1, 1, 1) }", "cone { radius_from = 0 }",
           "disc { radius = 1, hole = 1 }", "triangle { points = [(0, 0, 0), (1, 1, 1), (2, 2, 2)] }",
           "triangle { points = [(0, 0, 0), (1, 1, 1)] }", "sphere { transform = scale(1, 1, 0) }"}) {
         const Compiled c = compile_shapes(shape);

@@ -31,10 +31,22 @@ TEST(FlattenTransforms, BakesASimilarityIntoASphere) {
     EXPECT_DOUBLE_EQ(sphere.center.z, 3);
 }
 
+TEST(FlattenTransforms, BakesASimilarityIntoACone) {
+    const ir::Scene scene = passed("cone { radius_from = 0.5, radius_to = 0.25, caps = false, transform = "
+                                   "scale(2) then rotate_z(90deg) then translate(0, 0, 3) }");
+    const auto& cone = std::get<runtime::Cone<double>>(scene.objects[0].shape);
+    EXPECT_EQ(scene.objects[0].world_from_object, Affine<double>{});
+    EXPECT_DOUBLE_EQ(cone.radius_from, 1);
+    EXPECT_DOUBLE_EQ(cone.radius_to, 0.5);
+    EXPECT_DOUBLE_EQ(cone.to.x, -2);
+    EXPECT_DOUBLE_EQ(cone.to.z, 3);
+    EXPECT_FALSE(cone.caps);
+}
+
 TEST(FlattenTransforms, KeepsWhatTheFormCannotExpress) {
     const ir::Scene scene =
         passed("sphere { transform = scale(1, 2, 1) }\nbox { transform = rotate_y(30deg) }\n"
-               "cylinder { transform = scale(1, 1, 2) }");
+               "cylinder { transform = scale(1, 1, 2) }\ncone { transform = scale(1, 1, 2) }");
     for (const ir::Object& object : scene.objects) {
         EXPECT_NE(object.world_from_object, Affine<double>{}) << object.path;
     }

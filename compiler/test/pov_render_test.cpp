@@ -106,6 +106,11 @@ let sides = two_sided { front = front, back = back }
     put("box { min = (-0.4, -0.5, -0.3), max = (0.5, 0.4, 0.6)", "(-1.2, 0.8, 0)");
     put("cylinder { from = (0, -0.5, 0), to = (0.2, 0.5, 0), radius = 0.4", "(0, 0.8, 0)");
     put("cylinder { from = (0, -0.5, 0), to = (0.2, 0.5, 0), radius = 0.4, caps = false", "(1.2, 0.8, 0)");
+    put("cone { from = (0, -0.5, 0), to = (0.2, 0.5, 0), radius_from = 0.4, radius_to = 0.15",
+        "(-2.3, 0.8, 2)");
+    put("cone { from = (0, -0.5, 0), to = (0.2, 0.5, 0), radius_from = 0, radius_to = 0.4, caps = false",
+        "(2.3, 0.8, 2)");
+    put("cone { from = (0, -0.3, 0), to = (0.1, 0.3, 0), radius_from = 0.3", "(0, 0.8, 3)");
     put("disc { normal = (0.3, 0.4, 1), radius = 0.6, hole = 0.2", "(2.4, 0.8, 0)");
     put("triangle { points = [(-0.5, -0.4, 0), (0.6, -0.3, 0.1), (0, 0.6, 0)]", "(-1, 0.8, 2)");
     put("triangle { points = [(-0.5, -0.4, 0), (0, 0.6, 0), (0.6, -0.3, 0.1)]", "(1, 0.8, 2)");

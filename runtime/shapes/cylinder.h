@@ -4,6 +4,7 @@
 #include "runtime/field.h"
 #include "runtime/math/vec.h"
 #include "runtime/ray.h"
+#include "runtime/shapes/axis.h"
 #include "runtime/shapes/quadratic.h"
 
 #include <string_view>
@@ -32,17 +33,14 @@ struct Cylinder {
         const Vec3<R> axis = normalize(to - from);
         const R magnitude = largest_component(maximum(absolute(from), absolute(to)));
         const R slack = 32 * roundoff<R>() * (magnitude + radius);
-        const auto reach = [&](R cosine) {
-            return radius * square_root(maximum(R(0), 1 - cosine * cosine)) + slack;
-        };
-        const Vec3<R> half{reach(axis.x), reach(axis.y), reach(axis.z)};
+        const Vec3<R> half = disc_reach(axis, radius) + Vec3<R>{slack, slack, slack};
         return {minimum(from, to) - half, maximum(from, to) + half};
     }
 
     /// Part 0 is the side, 1 the cap at `from`, 2 the cap at `to`.
     template <class L>
     constexpr ShapeHit<L> intersect(const Ray<L>& ray) const {
-        const Frame<L> f(*this, ray);
+        const AxisFrame<L> f(from, to, ray);
         const CircleRoots<L> side = intersect_circle(f.org_across, f.dir_across, L(radius));
         return caps ? intersect_closed(ray, f, side) : intersect_open(ray, f, side);
     }
@@ -50,7 +48,7 @@ struct Cylinder {
     template <class L>
     constexpr Surface<L> surface(const Ray<L>& ray, const ShapeHit<L>& hit) const {
         const L u = roundoff<L>();
-        const Frame<L> f(*this, ray);
+        const AxisFrame<L> f(from, to, ray);
         const MaskOf<L> on_side = hit.part == IndexOf<L>(0);
         const MaskOf<L> at_from = hit.part == IndexOf<L>(1);
         const L height = choose(on_side, f.org_along + hit.t * f.dir_along, choose(at_from, L(0), f.height));
@@ -66,65 +64,25 @@ struct Cylinder {
     }
 
 private:
-    /// A ray relative to the axis.
     template <class L>
-    struct Frame {
-        Vec3<L> axis; ///< unit
-        L height;
-        L org_along, dir_along;
-        Vec3<L> org_across, dir_across;
-
-        constexpr Frame(const Cylinder& c, const Ray<L>& ray) {
-            const Vec3<R> whole = c.to - c.from;
-            const R h = length(whole);
-            axis = lanes<L>(whole * (1 / h));
-            height = L(h);
-            const Vec3<L> org = ray.org - lanes<L>(c.from);
-            org_along = dot(org, axis);
-            dir_along = dot(ray.dir, axis);
-            org_across = org - axis * org_along;
-            dir_across = ray.dir - axis * dir_along;
-        }
-    };
-
-    template <class L>
-    constexpr ShapeHit<L> intersect_open(const Ray<L>& ray, const Frame<L>& f,
-                                         const CircleRoots<L>& side) const {
+    static constexpr ShapeHit<L> intersect_open(const Ray<L>& ray, const AxisFrame<L>& f,
+                                                const CircleRoots<L>& side) {
         if (none(side.real)) {
             return {};
         }
-        const auto usable = [&](const L& t) {
-            const L along = f.org_along + t * f.dir_along;
-            const MaskOf<L> inside = side.real & (along >= 0) & (along <= f.height) & (t >= ray.t_min);
-            return choose(inside & (t <= ray.t_max), t, infinity<L>());
-        };
-        return {minimum(usable(side.near), usable(side.far)), {}};
+        return {minimum(f.between_ends(ray, side.near, side.real), f.between_ends(ray, side.far, side.real)),
+                {}};
     }
 
-    /// The ray's stretch inside the endless tube and its stretch between the caps: their common part is
-    /// inside the solid, so there is no seam at the rim for a ray to slip through.
     template <class L>
-    constexpr ShapeHit<L> intersect_closed(const Ray<L>& ray, const Frame<L>& f,
-                                           const CircleRoots<L>& side) const {
+    static constexpr ShapeHit<L> intersect_closed(const Ray<L>& ray, const AxisFrame<L>& f,
+                                                  const CircleRoots<L>& side) {
         const L inf = infinity<L>();
         const MaskOf<L> along_axis = dot(f.dir_across, f.dir_across) == 0;
         const L everywhere = choose(along_axis & (side.excess <= 0), inf, -inf);
-        const L tube_near = choose(side.real, side.near, -everywhere);
-        const L tube_far = choose(side.real, side.far, everywhere);
-
-        const L inverse = 1 / f.dir_along;
-        const L t_from = -f.org_along * inverse, t_to = (f.height - f.org_along) * inverse;
-        const MaskOf<L> across_axis = absolute(inverse) == inf;
-        const L between = choose((f.org_along >= 0) & (f.org_along <= f.height), inf, -inf);
-        const L caps_near = choose(across_axis, -between, minimum(t_from, t_to));
-        const L caps_far = choose(across_axis, between, maximum(t_from, t_to));
-
-        const L entry = maximum(tube_near, caps_near), exit = minimum(tube_far, caps_far);
-        const MaskOf<L> crossed = entry <= exit;
-        const L t = choose(crossed, first_in_range(ray, entry, exit), inf);
-        const MaskOf<L> on_side = t == choose(t == entry, tube_near, tube_far);
-        using Index = IndexOf<L>;
-        return {t, choose(on_side, Index(0), choose(t == t_from, Index(1), Index(2)))};
+        return intersect_capped(
+            ray, f,
+            Stretch<L>{choose(side.real, side.near, -everywhere), choose(side.real, side.far, everywhere)});
     }
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "runtime/shapes/box.h"
+#include "runtime/shapes/cone.h"
 #include "runtime/shapes/cylinder.h"
 #include "runtime/shapes/disc.h"
 #include "runtime/shapes/mesh.h"
@@ -15,6 +16,6 @@ struct TypeList {};
 
 /// The one list of shapes. A new shape is its header and a row here.
 template <class R>
-using Shapes = TypeList<Sphere<R>, Box<R>, Plane<R>, Cylinder<R>, Disc<R>, Triangle<R>, Mesh<R>>;
+using Shapes = TypeList<Sphere<R>, Box<R>, Plane<R>, Cylinder<R>, Cone<R>, Disc<R>, Triangle<R>, Mesh<R>>;
 
 } // namespace scc::runtime

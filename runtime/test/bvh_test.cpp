@@ -167,6 +167,7 @@ void fill(DynamicScene<R>& scene, Random<R>& random, int count) {
         put(Disc<R>{}, id++);
         put(Box<R>{}, id++);
         put(Cylinder<R>{}, id++);
+        put(Cone<R>{}, id++);
         put(Sphere<R>{}, id++);
         put(Mesh<R>{}, id++);
         put(Box<R>{}, id++);

@@ -71,6 +71,15 @@ void randomize(Cylinder<R>& s, Random<R>& random, double distance) {
          random.number(0, 1) < 0.5};
 }
 template <class R>
+void randomize(Cone<R>& s, Random<R>& random, double distance) {
+    const Vec3<R> from = random.vector(distance);
+    const R wide = random.number(0.2, 1.5), kind = random.number(0, 1);
+    const R narrow = kind < R(0.3) ? R(0) : kind < R(0.4) ? wide : wide * random.number(0.01, 1.01);
+    const bool upwards = random.number(0, 1) < 0.5;
+    s = {from, from + random.direction() * random.number(0.2, 3), upwards ? narrow : wide,
+         upwards ? wide : narrow, random.number(0, 1) < 0.5};
+}
+template <class R>
 void randomize(Disc<R>& s, Random<R>& random, double distance) {
     const R radius = random.number(0.5, 2);
     s = {random.vector(distance), random.direction() * random.number(0.5, 2), radius,

@@ -129,7 +129,7 @@ TYPED_TEST(Rendering, LeavingOutWhatASceneLacksChangesNothing) {
     constexpr SceneTraits narrow = [] {
         SceneTraits result = everything;
         result.bare_shapes = 1U << 0 | 1U << 1;
-        result.placed_shapes = 1U << 0 | 1U << 6;
+        result.placed_shapes = 1U << 0 | 1U << 7;
         result.directional_lights = result.attenuation = result.separate_specular = result.emission = false;
         result.reflection = result.two_sided = result.functions = result.smooth_normals = false;
         result.accelerator = result.orthographic = false;

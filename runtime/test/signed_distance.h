@@ -41,6 +41,18 @@ long double signed_distance(const Cylinder<R>& s, const Wide& p, const Wide& n) 
     return length(f - w * along) - static_cast<long double>(s.radius);
 }
 template <class R>
+long double signed_distance(const Cone<R>& s, const Wide& p, const Wide& n) {
+    const Wide from = lanes<long double>(s.from), axis = lanes<long double>(s.to) - from;
+    const Wide w = normalize(axis), f = p - from;
+    const long double r = static_cast<long double>(s.radius_from);
+    const long double k = (static_cast<long double>(s.radius_to) - r) / length(axis);
+    const long double along = dot(f, w), slope = dot(n, w), secant = std::sqrt(1 + k * k);
+    if (std::abs(slope + k / secant) > 1e-3L) {
+        return slope > 0 ? along - length(axis) : -along;
+    }
+    return (length(f - w * along) - (r + k * along)) / secant;
+}
+template <class R>
 long double signed_distance(const Disc<R>& s, const Wide& p, const Wide&) {
     return dot(normalize(lanes<long double>(s.normal)), p - lanes<long double>(s.center));
 }

@@ -122,13 +122,13 @@ def flat_or_smooth(o):
 
 
 #: end
-#: cylinder
-def cylinder_kinds(o):
+#: cylinder cone
+def side_and_caps(o):
     #: cap
     if o.get("caps", True):
-        return "cylinder", "cap"
+        return o["type"], "cap"
     #: end
-    return ("cylinder",)
+    return (o["type"],)
 
 
 #: end
@@ -153,6 +153,9 @@ HITS = {
     #: cylinder
     "cylinder": cylinder_hit,
     #: end
+    #: cone
+    "cone": cone_hit,
+    #: end
     #: cap
     "cap": cap_hit,
     #: end
@@ -174,8 +177,12 @@ SHAPES = {
     "plane": Shape(plane_mesh, plane_kinds),
     #: end
     #: cylinder
-    "cylinder": Shape(cylinder_mesh, cylinder_kinds, lambda o: (o.get("caps", True), *cylinder_cells(o)),
+    "cylinder": Shape(cylinder_mesh, side_and_caps, lambda o: (o.get("caps", True), *cylinder_cells(o)),
                       cylinder_axes),
+    #: end
+    #: cone
+    "cone": Shape(cone_mesh, side_and_caps, lambda o: (o.get("caps", True), o["taper"], *cylinder_cells(o)),
+                  cylinder_axes),
     #: end
     #: disc
     "disc": Shape(disc_mesh),
@@ -219,6 +226,10 @@ def add_objects(collection, materials):
         if shape.axes:
             axes = np.column_stack(shape.axes(o))
             world = world @ affine(axes)
+            #: cone
+            if "taper" in o:
+                ob["scc_taper"] = o["taper"]
+            #: end
             #: curved_p
             for name, vector in zip(("scc_x", "scc_y", "scc_z", "scc_origin"), axes.T):
                 ob[name] = tuple(map(float, vector))

@@ -59,7 +59,7 @@ def apparent_radius(o, center, radius):
 
 
 #: end
-#: cylinder disc
+#: cylinder cone disc
 ASPECT = 8.0  # of a triangle; the sliver's length over its width multiplies Cycles' rounding error of a hit
 
 
@@ -125,7 +125,7 @@ def sphere_axes(o):
 
 
 #: end
-#: cylinder
+#: cylinder cone
 def cylinder_cells(o):
     """Segments around and rows along, so that the sides' triangles are no slivers."""
     start, axis = np.array(o["start"]), np.subtract(o["end"], o["start"])
@@ -134,6 +134,8 @@ def cylinder_cells(o):
     return n, 2 ** math.ceil(math.log2(max(1.0, length * n / (2 * math.pi * o["radius"] * ASPECT))))
 
 
+#: end
+#: cylinder
 def cylinder_mesh(o):
     """Radius 1 about the z axis from 0 to 1; the ends have corners of their own and the second material."""
     n, rows = cylinder_cells(o)
@@ -149,6 +151,27 @@ def cylinder_mesh(o):
     return new_mesh("open cylinder", np.concatenate(rings), side, True)
 
 
+#: end
+#: cone
+def cone_mesh(o):
+    """Radius 1 - taper z about the z axis from 0 to 1; the ends as a cylinder's, none at a sharp tip."""
+    n, rows = cylinder_cells(o)
+    taper, ring, side = o["taper"], circle(n), band(n, rows)
+    if taper == 1.0:
+        side = side[:-n]  # those that have two corners in the tip
+    rings = [np.column_stack((ring * (1 - taper * k / rows), np.full(n, k / rows))) for k in range(rows + 1)]
+    #: cap
+    if o.get("caps", True):
+        first = n * (rows + 1)
+        ends = [fill(np.arange(n)[::-1] + first), fill(np.arange(n) + first + n)][:1 if taper == 1.0 else 2]
+        return new_mesh("cone", np.concatenate(rings + [rings[0], rings[-1]]), np.concatenate((side, *ends)), True,
+                        np.repeat((0, 1), (len(side), sum(map(len, ends)))))
+    #: end
+    return new_mesh("open cone", np.concatenate(rings), side, True)
+
+
+#: end
+#: cylinder cone
 def cylinder_axes(o):
     start, axis = np.array(o["start"]), np.subtract(o["end"], o["start"])
     first, second = frame(unit(axis))

@@ -92,9 +92,35 @@ def cylinder_hit(o=None):
 
 
 #: end
+#: cone
+def cone_hit(o=None):
+    def across(g, vector):
+        return g.v("MULTIPLY", vector, (1.0, 1.0, 0.0))
+
+    def radius(g, p):
+        """Of the cone at the height of p, and how much it loses for each unit of height."""
+        taper = g.attribute("OBJECT", "scc_taper", "Fac")
+        return g.f("SUBTRACT", 1.0, g.f("MULTIPLY", taper, g.split(p).z)), taper
+
+    def coefficients(g, p, d):
+        r, taper = radius(g, p)
+        loss = g.f("MULTIPLY", taper, g.split(d).z)
+        p, d = across(g, p), across(g, d)
+        return (g.f("SUBTRACT", g.v("DOT_PRODUCT", d, d), g.f("MULTIPLY", loss, loss)),
+                g.f("MULTIPLY_ADD", r, loss, g.v("DOT_PRODUCT", p, d)),
+                g.f("SUBTRACT", g.v("DOT_PRODUCT", p, p), g.f("MULTIPLY", r, r)))
+
+    def gradient(g, unit):
+        r, taper = radius(g, unit)
+        return g.v("ADD", across(g, unit), g.join(0.0, 0.0, g.f("MULTIPLY", r, taper)))
+
+    return quadric_hit("cone", coefficients, gradient)
+
+
+#: end
 #: cap
 def cap_hit(o=None):
-    """The flat ends of a cylinder, whose mesh stands in unit coordinates."""
+    """The flat ends of a cylinder or cone, whose mesh stands in unit coordinates."""
     tree = flat_hit()
     tree.name = "scc cap hit"
     #: curved_p

@@ -13,7 +13,7 @@ using namespace scc::runtime;
 
 struct Scene : SceneBase<double> {
     using R = double;
-    static constexpr SceneTraits traits{.bare_shapes = 0x30, .placed_shapes = 0x1, .point_lights = true, .attenuation = true, .separate_specular = true, .specular = true, .functions = true, .smooth_normals = true, .orthographic = true};
+    static constexpr SceneTraits traits{.bare_shapes = 0x60, .placed_shapes = 0x1, .point_lights = true, .attenuation = true, .separate_specular = true, .specular = true, .functions = true, .smooth_normals = true, .orthographic = true};
     using SceneBase<R>::primitives;
     static constexpr std::array<Placed<Sphere<R>, R>, 1> placed_sphere{{
         {{{0.0, 0.0, 0.0}, 1.0}, {{{0.8660254037844387, 0.0, 0.49999999999999994, 0.0}, {0.0, 0.5, 0.0, 1.0}, {-0.49999999999999994, 0.0, 0.8660254037844387, 0.0}}}, {{{0.8660254037844387, 0.0, -0.49999999999999994, 0.0}, {0.0, 2.0, 0.0, -2.0}, {0.49999999999999994, 0.0, 0.8660254037844387, 0.0}}}, {0, {0, 0}}},
