@@ -44,15 +44,16 @@ Stage stage_for(Emit emit) {
 }
 
 void emit_source(const Loaded& loaded, const Options& options) {
-    const std::string blob_name =
-        compiler::Identifiers("scene_").make(fs::path(options.output).stem().string()) + ".blob";
-    const compiler::CppProgram program = emit_cpp(loaded.scene, options.precision, blob_name);
-    if (!program.blob.empty()) {
+    const std::string values_name =
+        compiler::Identifiers("scene_").make(fs::path(options.output).stem().string()) + ".values";
+    const compiler::CppProgram program =
+        emit_cpp(loaded.scene, options.precision, compiler::Numbers::in_code, values_name);
+    if (!program.values.empty()) {
         if (options.output == "-") {
             throw host::UsageError(
                 "this scene's program has a second file with its large tables: give `-o` a file name");
         }
-        host::replace_file((fs::path(options.output).parent_path() / blob_name).string(), program.blob);
+        host::replace_file((fs::path(options.output).parent_path() / values_name).string(), program.values);
     }
     write_result(options.output, program.source);
 }
@@ -61,8 +62,7 @@ void emit_program(const Loaded& loaded, const Options& options) {
     if (options.output == "-") {
         throw host::UsageError("a program cannot go to standard output: give `-o` a file name");
     }
-    const std::string blob_name = "scene.blob";
-    compile_native(emit_cpp(loaded.scene, options.precision, blob_name), blob_name, options.output);
+    compile_native(emit_cpp(loaded.scene, options.precision, compiler::Numbers::as_values), options.output);
 }
 
 int build(const Options& options) {

@@ -85,32 +85,22 @@ std::vector<std::string> arguments(const RuntimeFiles& runtime) {
     return list;
 }
 
-void install(const fs::path& program, const fs::path& output) {
-    const fs::path temporary =
-        output.parent_path() / fmt::format(".{}.{}", output.filename().string(), getpid());
-    std::error_code error;
-    fs::copy_file(program, temporary, fs::copy_options::overwrite_existing, error);
-    if (!error) {
-        fs::rename(temporary, output, error);
-    }
-    if (error) {
-        std::error_code ignored;
-        fs::remove(temporary, ignored);
-        throw host::FileError(fmt::format("cannot write `{}`: {}", output.string(), error.message()));
-    }
+/// The program is its code with the values after it, aligned as their tables are within.
+void install(const fs::path& code, const std::string& values, const fs::path& output) {
+    constexpr std::size_t alignment = 64;
+    std::string bytes(host::MappedFile(code.string()).text());
+    bytes.resize((bytes.size() + alignment - 1) / alignment * alignment);
+    bytes += values;
+    host::replace_file(output.string(), bytes, host::FileKind::program);
 }
 
 } // namespace
 
-void compile_native(const compiler::CppProgram& program, const std::string& blob_name,
-                    const fs::path& output) {
+void compile_native(const compiler::CppProgram& program, const fs::path& output) {
     const RuntimeFiles runtime = find_runtime();
     const std::string compiler = find_compiler();
     const validation::ScratchFolder folder;
     host::replace_file((folder.path() / "scene.cpp").string(), program.source);
-    if (!program.blob.empty()) {
-        host::replace_file((folder.path() / blob_name).string(), program.blob);
-    }
     validation::Command command;
     command.program = compiler;
     command.arguments = arguments(runtime);
@@ -124,7 +114,7 @@ void compile_native(const compiler::CppProgram& program, const std::string& blob
         throw EnvironmentError(fmt::format("the C++ compiler `{}` failed ({}):\n{}", compiler,
                                            validation::describe(result, command), result.err));
     }
-    install(folder.path() / "program", output);
+    install(folder.path() / "program", program.values, output);
 }
 
 } // namespace scc::cli

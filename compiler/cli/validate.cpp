@@ -87,10 +87,9 @@ RendererReport run_native(const Subject& subject) {
     RendererReport result;
     result.renderer = "native";
     const std::string program = (subject.folder.path() / "native").string();
-    const std::string blob_name = "scene.blob";
     try {
-        compile_native(emit_cpp(subject.loaded.scene, compiler::Precision::full, blob_name), blob_name,
-                       program);
+        compile_native(
+            emit_cpp(subject.loaded.scene, compiler::Precision::full, compiler::Numbers::as_values), program);
     } catch (const EnvironmentError& error) {
         result.judgement = {Verdict::skipped, error.what()};
         return result;

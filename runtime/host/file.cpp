@@ -7,6 +7,8 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <sys/mman.h>
+#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -84,7 +86,7 @@ fs::path target_of(const std::string& path) {
 
 } // namespace
 
-void replace_file(const std::string& path, std::string_view bytes) {
+void replace_file(const std::string& path, std::string_view bytes, FileKind kind) {
     const fs::path target = target_of(path);
     std::error_code none;
     const fs::file_status status = fs::status(target, none);
@@ -96,7 +98,8 @@ void replace_file(const std::string& path, std::string_view bytes) {
     static std::atomic<unsigned> counter{0};
     // Not derived from the file's own name, which may already be as long as the file system allows.
     const fs::path name = target.parent_path() / fmt::format(".scc-{}-{}.tmp", ::getpid(), ++counter);
-    Descriptor file(::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    Descriptor file(::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC,
+                           kind == FileKind::program ? 0777 : 0666));
     if (file.get() < 0)
         fail(path, errno);
     TemporaryName temporary(name);
@@ -104,6 +107,30 @@ void replace_file(const std::string& path, std::string_view bytes) {
     if (::rename(name.c_str(), target.c_str()) != 0)
         fail(path, errno);
     temporary.release();
+}
+
+MappedFile::MappedFile(const std::string& path) {
+    const auto fail_reading = [&](int error) {
+        throw FileError("cannot read `" + path + "`: " + std::strerror(error));
+    };
+    Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    struct stat status {};
+    if (file.get() < 0 || ::fstat(file.get(), &status) != 0)
+        fail_reading(errno);
+    if (!S_ISREG(status.st_mode))
+        fail_reading(S_ISDIR(status.st_mode) ? EISDIR : EINVAL);
+    const auto size = static_cast<std::size_t>(status.st_size);
+    if (size == 0)
+        return;
+    void* memory = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.get(), 0);
+    if (memory == MAP_FAILED)
+        fail_reading(errno);
+    bytes_ = {static_cast<const std::byte*>(memory), size};
+}
+
+MappedFile::~MappedFile() {
+    if (!bytes_.empty())
+        ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
 }
 
 } // namespace scc::host
