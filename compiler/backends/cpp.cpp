@@ -193,7 +193,7 @@ void Emitter<R>::member(const std::string& type, const std::string& name, const 
         out_.line("static constexpr {} {}{};", type, name, literal(value));
         return;
     }
-    out_.line("{} {};", type, name);
+    out_.line("static inline {} {};", type, name);
     values_.add(value);
     read_member(name);
 }
@@ -205,7 +205,7 @@ void Emitter<R>::table(const std::string& row_type, const std::string& name, con
                                  ? fmt::format("std::span<const {}>", row_type)
                                  : fmt::format("std::array<{}, {}>", row_type, rows.size());
     if (!in_code_ || rows.size() > most_constant_rows) {
-        out_.line("{} {};", type, name);
+        out_.line("static inline {} {};", type, name);
         values_.add(std::span<const T>(rows));
         read_member(name);
         return;
@@ -325,7 +325,7 @@ void Emitter<R>::scene_type() {
     functions(3, "Rgb<L>", "color_function");
     functions(1, "L", "number_function");
     if (!function_constants_.empty()) {
-        out_.line("std::array<R, {}> function_constants;", function_constants_.size());
+        out_.line("static inline std::array<R, {}> function_constants;", function_constants_.size());
         values_.add(std::span<const R>(function_constants_));
         read_member("function_constants");
     }
@@ -409,12 +409,8 @@ CppProgram Emitter<R>::emit() {
     const std::string values = values_.empty() ? std::string() : values_.take();
 
     out_ = Writer();
-    for (const char* header : {"runtime/accel/build.h", "runtime/host/program.h", "runtime/render.h"}) {
-        out_.line("#include \"{}\"", header);
-    }
-    out_.blank();
-    for (const char* header : {"array", "cstdint", "span", "vector"}) {
-        out_.line("#include <{}>", header);
+    for (const std::string_view header : program_headers) {
+        out_.line("#include {}", header);
     }
     out_.blank();
     if (in_code_ && !values.empty()) {

@@ -3,9 +3,16 @@
 #include "compiler/backends/precision.h"
 #include "compiler/ir/scene.h"
 
+#include <array>
 #include <string>
+#include <string_view>
 
 namespace scc::compiler {
+
+/// What every generated program includes, in its order and with its brackets.
+inline constexpr auto program_headers =
+    std::to_array<std::string_view>({"\"runtime/accel/build.h\"", "\"runtime/host/program.h\"",
+                                     "\"runtime/render.h\"", "<array>", "<cstdint>", "<span>", "<vector>"});
 
 /// Where a generated program has its scene's numbers.
 enum class Numbers {

@@ -27,6 +27,7 @@ struct Options {
     std::string output;
     Emit emit = Emit::exe;
     compiler::Precision precision = compiler::Precision::full;
+    NativeOptions native;
 };
 
 Stage stage_for(Emit emit) {
@@ -62,7 +63,8 @@ void emit_program(const Loaded& loaded, const Options& options) {
     if (options.output == "-") {
         throw host::UsageError("a program cannot go to standard output: give `-o` a file name");
     }
-    compile_native(emit_cpp(loaded.scene, options.precision, compiler::Numbers::as_values), options.output);
+    compile_native(emit_cpp(loaded.scene, options.precision, compiler::Numbers::as_values), options.native,
+                   options.output);
 }
 
 int build(const Options& options) {
@@ -112,6 +114,17 @@ void add_build(CLI::App& app, Run& selected) {
             "stop at this stage (default: exe)")
         ->check(CLI::IsMember({"exe", "cpp", "ir", "ast", "tokens"}))
         ->type_name("exe|cpp|ir|ast|tokens");
+    static const std::map<std::string, Target> targets{{"host", Target::host},
+                                                       {"baseline", Target::baseline}};
+    command
+        ->add_option_function<std::string>(
+            "--target", [options](const std::string& name) { options->native.target = targets.at(name); },
+            "whose instructions the program may use: this machine's (default), or any's of its architecture")
+        ->check(CLI::IsMember({"host", "baseline"}))
+        ->type_name("host|baseline");
+    command->add_flag_callback(
+        "--no-cache", [options] { options->native.cache = {}; },
+        "compile, even if the same code was compiled before");
     command->callback([&selected, options] { selected = [options] { return build(*options); }; });
 }
 

@@ -89,7 +89,8 @@ RendererReport run_native(const Subject& subject) {
     const std::string program = (subject.folder.path() / "native").string();
     try {
         compile_native(
-            emit_cpp(subject.loaded.scene, compiler::Precision::full, compiler::Numbers::as_values), program);
+            emit_cpp(subject.loaded.scene, compiler::Precision::full, compiler::Numbers::as_values), {},
+            program);
     } catch (const EnvironmentError& error) {
         result.judgement = {Verdict::skipped, error.what()};
         return result;
