@@ -1,7 +1,5 @@
 #include "runtime/host/file.h"
 
-#include <fmt/core.h>
-
 #include <atomic>
 #include <cerrno>
 #include <cstring>
@@ -19,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& path, int error) {
-    throw FileError(fmt::format("cannot write `{}`: {}", path, std::strerror(error)));
+    throw FileError("cannot write `" + path + "`: " + std::strerror(error));
 }
 
 class Descriptor {
@@ -97,7 +95,8 @@ void replace_file(const std::string& path, std::string_view bytes, FileKind kind
 
     static std::atomic<unsigned> counter{0};
     // Not derived from the file's own name, which may already be as long as the file system allows.
-    const fs::path name = target.parent_path() / fmt::format(".scc-{}-{}.tmp", ::getpid(), ++counter);
+    const fs::path name = target.parent_path() /
+                          (".scc-" + std::to_string(::getpid()) + "-" + std::to_string(++counter) + ".tmp");
     Descriptor file(::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC,
                            kind == FileKind::program ? 0777 : 0666));
     if (file.get() < 0)

@@ -4,14 +4,12 @@
 #include "runtime/host/file.h"
 #include "runtime/host/options.h"
 
-#include <CLI/CLI.hpp>
-#include <fmt/core.h>
-
 #include <chrono>
 #include <cstdio>
 #include <new>
 #include <optional>
 #include <span>
+#include <string>
 
 namespace scc::host {
 
@@ -52,7 +50,7 @@ Drawable load(const Program& program, std::optional<MappedFile>& file) {
 }
 
 int fail(int code, const char* text) {
-    fmt::print(stderr, "error: {}\n", text);
+    std::fputs((std::string("error: ") + text + "\n").c_str(), stderr);
     return code;
 }
 
@@ -62,18 +60,14 @@ int run_program(const Program& program, int argc, char** argv) {
     try {
         std::optional<MappedFile> file;
         const Drawable drawable = load(program, file);
-        CLI::App app{fmt::format("Draws the scene `{}`, for which this program was made. Default size {} x "
-                                 "{}, {} samples per pixel.",
-                                 drawable.scene, drawable.settings.width, drawable.settings.height,
-                                 drawable.settings.samples_per_axis * drawable.settings.samples_per_axis)};
-        RenderOptions options;
-        add_render_options(app, options);
-        try {
-            app.parse(argc, argv);
-        } catch (const CLI::ParseError& error) {
-            return app.exit(error) == 0 ? exit_fine : exit_usage;
-        }
-        return draw(drawable, options);
+        const runtime::RenderSettings& settings = drawable.settings;
+        const std::optional<RenderOptions> options = parse_program_options(
+            argc, argv,
+            "Draws the scene `" + drawable.scene + "`, for which this program was made. Default size " +
+                std::to_string(settings.width) + " x " + std::to_string(settings.height) + ", " +
+                std::to_string(settings.samples_per_axis * settings.samples_per_axis) +
+                " samples per pixel.");
+        return options ? draw(drawable, *options) : exit_fine;
     } catch (const UsageError& error) {
         return fail(exit_usage, error.what());
     } catch (const FileError& error) {
