@@ -1,4 +1,5 @@
 #include "compiler/backends/cpp.h"
+#include "compiler/cli/build_report.h"
 #include "compiler/cli/commands.h"
 #include "compiler/cli/native.h"
 #include "compiler/ir/print.h"
@@ -28,6 +29,7 @@ struct Options {
     Emit emit = Emit::exe;
     compiler::Precision precision = compiler::Precision::full;
     NativeOptions native;
+    std::string report; ///< "text", "json" or empty
 };
 
 Stage stage_for(Emit emit) {
@@ -65,9 +67,16 @@ void emit_program(const Loaded& loaded, const Options& options) {
     }
     compile_native(emit_cpp(loaded.scene, options.precision, compiler::Numbers::as_values), options.native,
                    options.output);
+    if (!options.report.empty()) {
+        const ReportKind kind = options.report == "json" ? ReportKind::json : ReportKind::text;
+        write_result("-", build_report(loaded, options.precision, options.native, options.output, kind));
+    }
 }
 
 int build(const Options& options) {
+    if (!options.report.empty() && options.emit != Emit::exe) {
+        throw host::UsageError("`--report` is about the program: leave out `--emit`");
+    }
     const Loaded loaded = load(options.scene, stage_for(options.emit));
     if (!report(loaded)) {
         return host::exit_scene;
@@ -122,6 +131,10 @@ void add_build(CLI::App& app, Run& selected) {
             "whose instructions the program may use: this machine's (default), or any's of its architecture")
         ->check(CLI::IsMember({"host", "baseline"}))
         ->type_name("host|baseline");
+    command
+        ->add_flag("--report{text}", options->report,
+                   "say what the program holds and leaves out, and what that saves; --report=json: as JSON")
+        ->check(CLI::IsMember({"text", "json"}));
     command->add_flag_callback(
         "--no-cache", [options] { options->native.cache = {}; },
         "compile, even if the same code was compiled before");

@@ -42,6 +42,8 @@ private:
         return static_cast<double>(nearest) < value ? std::nextafter(nearest, 2.0F) : nearest;
     }
     std::uint16_t count_reached(float linear, std::uint16_t from) const {
+        // Mostly 0 or 1 as it happens, which no branch could foresee.
+        from = static_cast<std::uint16_t>(from + (linear >= thresholds_[from] ? 1 : 0));
         while (linear >= thresholds_[from])
             ++from;
         return from;
