@@ -32,6 +32,12 @@ struct MeshData {
 
 inline constexpr std::size_t words_per_triangle = 10;
 inline constexpr std::size_t triangle_padding = 16;
+constexpr std::size_t triangle_words(std::uint32_t triangles) {
+    return triangles == 0 ? 0 : words_per_triangle * triangles + triangle_padding;
+}
+constexpr std::uint32_t triangles_in(std::size_t words) {
+    return words == 0 ? 0 : static_cast<std::uint32_t>((words - triangle_padding) / words_per_triangle);
+}
 
 /// A triangle's place in a mesh, as ShapeHit::part has it.
 struct TrianglePlace {
@@ -67,13 +73,12 @@ struct MeshStorage {
 
     MeshData data() const {
         const bool smooth = !normals.empty();
-        const std::size_t words = triangles.size() - (triangles.empty() ? 0 : triangle_padding);
         return {nodes.data(),
                 triangles.data(),
                 smooth ? normals.data() : nullptr,
                 smooth ? normal_indices.data() : nullptr,
                 static_cast<std::uint32_t>(nodes.size()),
-                static_cast<std::uint32_t>(words / words_per_triangle),
+                triangles_in(triangles.size()),
                 static_cast<std::uint32_t>(normals.size() / 3),
                 {min[0], min[1], min[2]},
                 {max[0], max[1], max[2]}};

@@ -1,6 +1,6 @@
 #include "validation/embed.h"
 
-#include "runtime/host/image_file.h"
+#include "runtime/host/png.h"
 
 #include <algorithm>
 #include <cmath>
@@ -83,8 +83,7 @@ runtime::Image shrunk(const runtime::Image& image, int max_width, Shrink how) {
 }
 
 std::string data_uri(const runtime::Image& image, Shrink how) {
-    const std::vector<unsigned char> png = host::encode_png(shrunk(image, max_embedded_width, how));
-    return "data:image/png;base64," + base64({reinterpret_cast<const char*>(png.data()), png.size()});
+    return "data:image/png;base64," + base64(host::encode_png(shrunk(image, max_embedded_width, how)));
 }
 
 } // namespace scc::validation

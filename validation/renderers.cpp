@@ -1,6 +1,6 @@
 #include "validation/renderers.h"
 
-#include "runtime/host/image_file.h"
+#include "runtime/host/read_image.h"
 #include "validation/compare.h"
 #include "validation/renderer_output.h"
 #include "validation/subprocess.h"

@@ -4,11 +4,11 @@
 #include "compiler/ir/traits.h"
 #include "compiler/writer.h"
 #include "runtime/accel/build.h"
+#include "runtime/host/values.h"
 
 #include <fmt/core.h>
 
-#include <cstring>
-#include <type_traits>
+#include <algorithm>
 
 namespace scc::compiler {
 
@@ -21,9 +21,9 @@ using runtime::Rgb;
 using runtime::Varying;
 using runtime::Vec3;
 
-/// Tables with more rows than this go into the blob: literals would cost more to compile than they could
-/// save.
-constexpr std::size_t most_literals = 64;
+/// Tables with more rows than this are of no constant size: the kernels unroll none so long, and literals
+/// would cost more to compile than they could save.
+constexpr std::size_t most_constant_rows = 64;
 
 // ---- values as braced C++ initialisers -----------------------------------------------------------------
 
@@ -81,6 +81,13 @@ std::string literal(const runtime::PointLight<R>& l) {
 template <class R>
 std::string literal(const runtime::DirectionalLight<R>& l) {
     return fmt::format("{{{}, {}, {}}}", literal(l.to_light), literal(l.diffuse), literal(l.specular));
+}
+template <class R>
+std::string literal(const runtime::Camera<R>& c) {
+    return fmt::format("{{Projection::{}, {}, {}, {}, {}, {}, {}, {}}}",
+                       c.projection == runtime::Projection::perspective ? "perspective" : "orthographic",
+                       literal(c.eye), literal(c.u), literal(c.v), literal(c.n), literal(c.half_height),
+                       literal(c.shift_x), literal(c.shift_y));
 }
 template <class R>
 std::string literal(const runtime::Mesh<R>& mesh) {
@@ -142,57 +149,68 @@ std::string table_name(const Placed<Shape, R>*) {
 template <class R>
 class Emitter {
 public:
-    Emitter(const ir::Scene& scene, Precision precision, const std::string& blob_name)
-        : scene_(scene), precision_(precision), blob_name_(blob_name) {}
+    Emitter(const ir::Scene& scene, Precision precision, Numbers numbers, const std::string& values_name)
+        : scene_(scene), precision_(precision), in_code_(numbers == Numbers::in_code),
+          values_name_(values_name) {}
 
     CppProgram emit();
 
 private:
-    /// A static table of the scene type; large ones go to the blob.
+    bool has_values() const { return !reads_.empty(); }
+    /// A member of the scene type: a constant, or one that the program reads from the values.
     template <class T>
-    void table(const std::string& type, const std::string& name, const std::vector<T>& rows);
+    void member(const std::string& type, const std::string& name, const T& value);
+    template <class T>
+    void table(const std::string& row_type, const std::string& name, const std::vector<T>& rows);
+    void read_member(const std::string& name);
     void traits();
     void primitives();
+    std::string node_spelling(const ir::Node& node);
     void functions(std::size_t results, const char* result_type, const char* name);
+    void meshes();
     void scene_type();
-    void main_function();
-    std::vector<std::string> mesh_rows();
-    /// Appends an array to the blob, aligned; returns an expression for its first element.
-    template <class T>
-    std::string in_blob(const char* type, const T* data, std::size_t count);
+    void program();
 
     const ir::Scene& scene_;
     Precision precision_;
-    std::string blob_name_;
-    std::string blob_;
-    std::vector<std::string> blob_tables_; // definitions that follow the scene type
+    bool in_code_;
+    std::string values_name_;
+    host::ValuesWriter values_;
+    std::vector<std::string> reads_; // statements of `load`, in the order of the values
+    std::vector<R> function_constants_;
     Writer out_;
 };
 
 template <class R>
-template <class T>
-std::string Emitter<R>::in_blob(const char* type, const T* data, std::size_t count) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    if (count == 0) {
-        return "nullptr";
-    }
-    blob_.resize((blob_.size() + 63) / 64 * 64);
-    const std::size_t offset = blob_.size();
-    blob_.resize(offset + count * sizeof(T));
-    std::memcpy(&blob_[offset], data, count * sizeof(T));
-    return fmt::format("reinterpret_cast<const {}*>(scene_blob + {})", type, offset);
+void Emitter<R>::read_member(const std::string& name) {
+    reads_.push_back(fmt::format("values.read(scene.{});", name));
 }
 
 template <class R>
 template <class T>
-void Emitter<R>::table(const std::string& type, const std::string& name, const std::vector<T>& rows) {
-    if (rows.size() > most_literals) {
-        out_.line("static const std::span<const {}> {};", type, name);
-        blob_tables_.push_back(fmt::format("const std::span<const {}> Scene::{}{{{}, {}}};", type, name,
-                                           in_blob(type.c_str(), rows.data(), rows.size()), rows.size()));
+void Emitter<R>::member(const std::string& type, const std::string& name, const T& value) {
+    if (in_code_) {
+        out_.line("static constexpr {} {}{};", type, name, literal(value));
         return;
     }
-    out_.line("static constexpr std::array<{}, {}> {}{{{{", type, rows.size(), name);
+    out_.line("static inline {} {};", type, name);
+    values_.add(value);
+    read_member(name);
+}
+
+template <class R>
+template <class T>
+void Emitter<R>::table(const std::string& row_type, const std::string& name, const std::vector<T>& rows) {
+    const std::string type = rows.size() > most_constant_rows
+                                 ? fmt::format("std::span<const {}>", row_type)
+                                 : fmt::format("std::array<{}, {}>", row_type, rows.size());
+    if (!in_code_ || rows.size() > most_constant_rows) {
+        out_.line("static inline {} {};", type, name);
+        values_.add(std::span<const T>(rows));
+        read_member(name);
+        return;
+    }
+    out_.line("static constexpr {} {}{{{{", type, name);
     out_.indent();
     for (const T& entry : rows) {
         out_.raw_line(literal(entry) + ",");
@@ -225,8 +243,7 @@ void Emitter<R>::primitives() {
         }
         const Primitive* tag = nullptr;
         table(type_name(tag), table_name(tag), rows);
-        out_.line("static constexpr const auto& primitives(Of<{}>) {{ return {}; }}", type_name(tag),
-                  table_name(tag));
+        out_.line("const auto& primitives(Of<{}>) const {{ return {}; }}", type_name(tag), table_name(tag));
     };
     std::apply([&](const auto&... rows) { (emit_table(rows), ...); }, tables.tables);
 }
@@ -235,10 +252,15 @@ std::string input_spelling(ir::Input input) {
     return "s." + std::string(ir::name(input));
 }
 
-std::string node_spelling(const ir::Node& node) {
+template <class R>
+std::string Emitter<R>::node_spelling(const ir::Node& node) {
     switch (node.kind) {
     case ir::Node::Kind::constant:
-        return fmt::format("L(R({}))", number(node.constant));
+        if (in_code_) {
+            return fmt::format("L(R({}))", number(node.constant));
+        }
+        function_constants_.push_back(static_cast<R>(node.constant));
+        return fmt::format("L(function_constants[{}])", function_constants_.size() - 1);
     case ir::Node::Kind::input:
         return input_spelling(node.input);
     case ir::Node::Kind::apply:
@@ -255,7 +277,7 @@ void Emitter<R>::functions(std::size_t results, const char* result_type, const c
         return;
     }
     out_.raw_line("template <class L>");
-    out_.line("static {} {}(std::int32_t index, const SurfacePoint<L>& s) {{", result_type, name);
+    out_.line("{} {}(std::int32_t index, const SurfacePoint<L>& s) const {{", result_type, name);
     out_.indent();
     out_.raw_line("switch (index) {");
     for (std::size_t i = 0; i < scene_.functions.size(); ++i) {
@@ -263,7 +285,7 @@ void Emitter<R>::functions(std::size_t results, const char* result_type, const c
         if (!matches(function)) {
             continue;
         }
-        out_.line("case {}: {{ // {}", i, comment_text(function.name));
+        out_.line("case {}: {{{}", i, in_code_ ? " // " + comment_text(function.name) : "");
         out_.indent();
         for (std::size_t k = 0; k < function.nodes.size(); ++k) {
             out_.line("const L v{} = {};", k, node_spelling(function.nodes[k]));
@@ -297,18 +319,17 @@ void Emitter<R>::scene_type() {
     if (scene_.traits.directional_lights) {
         table("DirectionalLight<R>", "directional_lights", lights_of<runtime::DirectionalLight, R>(scene_));
     }
-    const auto camera = convert(scene_.camera, R{});
-    out_.line("static constexpr Camera<R> camera{{Projection::{}, {}, {}, {}, {}, {}, {}, {}}};",
-              camera.projection == runtime::Projection::perspective ? "perspective" : "orthographic",
-              literal(camera.eye), literal(camera.u), literal(camera.v), literal(camera.n),
-              literal(camera.half_height), literal(camera.shift_x), literal(camera.shift_y));
-    out_.line("static constexpr Rgb<R> ambient{};", literal(convert(scene_.ambient, R{})));
-    out_.line("static constexpr Rgb<R> background{};", literal(convert(scene_.background, R{})));
+    member("Camera<R>", "camera", convert(scene_.camera, R{}));
+    member("Rgb<R>", "ambient", convert(scene_.ambient, R{}));
+    member("Rgb<R>", "background", convert(scene_.background, R{}));
     functions(3, "Rgb<L>", "color_function");
     functions(1, "L", "number_function");
-    if (!scene_.meshes.empty()) {
-        out_.raw_line("std::vector<MeshData> meshes;");
+    if (!function_constants_.empty()) {
+        out_.line("static inline std::array<R, {}> function_constants;", function_constants_.size());
+        values_.add(std::span<const R>(function_constants_));
+        read_member("function_constants");
     }
+    meshes();
     if (scene_.traits.accelerator) {
         out_.raw_line("Accelerator accelerator;");
     }
@@ -317,36 +338,38 @@ void Emitter<R>::scene_type() {
 }
 
 template <class R>
-std::vector<std::string> Emitter<R>::mesh_rows() {
-    std::vector<std::string> rows;
-    for (const ir::Mesh& mesh : scene_.meshes) {
-        const runtime::MeshStorage storage =
-            runtime::build_mesh(mesh.positions, mesh.indices, mesh.normals, mesh.normal_indices);
-        const runtime::MeshData data = storage.data();
-        const std::size_t normal_indices = data.normals != nullptr ? storage.normal_indices.size() : 0;
-        const std::size_t normals = data.normals != nullptr ? storage.normals.size() : 0;
-        const auto corner = [](const float(&v)[3]) {
-            return fmt::format("{{{}, {}, {}}}", literal(v[0]), literal(v[1]), literal(v[2]));
-        };
-        rows.push_back(fmt::format(
-            "{{{}, {}, {}, {}, {}, {}, {}, {}, {}}}", in_blob("BvhNode", data.nodes, storage.nodes.size()),
-            in_blob("float", data.triangles, storage.triangles.size()),
-            in_blob("float", data.normals, normals),
-            in_blob("std::uint32_t", data.normal_indices, normal_indices), data.node_count,
-            data.triangle_count, data.normal_count, corner(data.min), corner(data.max)));
+void Emitter<R>::meshes() {
+    if (scene_.meshes.empty()) {
+        return;
     }
-    return rows;
+    std::vector<runtime::MeshStorage> built;
+    std::vector<runtime::MeshData> data;
+    for (const ir::Mesh& mesh : scene_.meshes) {
+        built.push_back(runtime::build_mesh(mesh.positions, mesh.indices, mesh.normals, mesh.normal_indices));
+    }
+    for (const runtime::MeshStorage& mesh : built) {
+        data.push_back(mesh.data());
+    }
+    out_.raw_line("std::vector<MeshData> meshes;");
+    values_.add(data);
+    read_member("meshes");
 }
 
 template <class R>
-void Emitter<R>::main_function() {
-    out_.raw_line("RenderResult draw(const RenderRequest& request, Image& image) {");
-    out_.indent();
+void Emitter<R>::program() {
     out_.raw_line("Scene scene;");
-    for (const std::string& mesh : mesh_rows()) {
-        out_.line("scene.meshes.push_back({});", mesh);
+    out_.blank();
+    out_.line("void load({}scc::host::Values& values) {{", has_values() ? "" : "[[maybe_unused]] ");
+    out_.indent();
+    for (const std::string& read : reads_) {
+        out_.raw_line(read);
     }
     out_.raw_line("prepare(scene);");
+    out_.dedent();
+    out_.raw_line("}");
+    out_.blank();
+    out_.raw_line("RenderResult draw(const RenderRequest& request, Image& image) {");
+    out_.indent();
     out_.raw_line("return render(scene, request, image);");
     out_.dedent();
     out_.raw_line("}");
@@ -360,56 +383,58 @@ void Emitter<R>::main_function() {
         features += quote(Language::cpp, feature) + ", ";
     }
     out_.line("static constexpr const char* features[] = {{{}nullptr}};", features);
-    const runtime::RenderSettings& s = scene_.settings;
-    out_.line("return scc::host::run_program({{{}, \"{}\", scc::host::compiled_isa, features, {{{}, {}, {}, "
-              "{}, {}}}, draw}}, argc, argv);",
-              quote(Language::cpp, scene_.name), name_of(precision_), s.width, s.height, s.samples_per_axis,
-              s.depth, literal(s.shadows));
+    std::string facts;
+    if (in_code_) {
+        const runtime::RenderSettings& s = scene_.settings;
+        facts = fmt::format(", {}, {{{}, {}, {}, {}, {}}}{}", quote(Language::cpp, scene_.name), s.width,
+                            s.height, s.samples_per_axis, s.depth, literal(s.shadows),
+                            !has_values() ? "" : ", scene_values, sizeof scene_values");
+    }
+    out_.line("return scc::host::run_program({{\"{}\", scc::host::compiled_isa, features, load, draw{}}}, "
+              "argc, argv);",
+              name_of(precision_), facts);
     out_.dedent();
     out_.raw_line("}");
 }
 
 template <class R>
 CppProgram Emitter<R>::emit() {
-    // The scene type is written first, since it fills the blob that is declared before it.
+    if (!in_code_) {
+        values_.add_text(scene_.name);
+        values_.add(scene_.settings);
+    }
+    // The scene type is written first, since it says which values there are.
     scene_type();
-    std::string type = out_.take();
-    out_ = Writer();
-    main_function();
-    std::string rest = out_.take();
+    const std::string type = out_.take();
+    const std::string values = values_.empty() ? std::string() : values_.take();
 
     out_ = Writer();
-    out_.raw_line("#include \"runtime/accel/build.h\"");
-    out_.raw_line("#include \"runtime/host/program.h\"");
-    out_.raw_line("#include \"runtime/render.h\"");
+    for (const std::string_view header : program_headers) {
+        out_.line("#include {}", header);
+    }
     out_.blank();
-    out_.raw_line("#include <array>");
-    out_.raw_line("#include <cstdint>");
-    out_.raw_line("#include <span>");
-    out_.raw_line("#include <vector>");
-    out_.blank();
-    if (!blob_.empty()) {
-        out_.line("asm(\".section .rodata\\n.balign 64\\nscene_blob:\\n.incbin \\\"{}\\\"\\n.text\\n\");",
-                  blob_name_);
-        out_.raw_line("extern \"C\" const unsigned char scene_blob[];");
+    if (in_code_ && !values.empty()) {
+        out_.line("asm(\".section .rodata\\n.balign 64\\nscene_values:\\n.incbin \\\"{}\\\"\\n.text\\n\");",
+                  values_name_);
+        out_.line("extern \"C\" const unsigned char scene_values[{}];", values.size());
         out_.blank();
     }
     out_.raw_line("namespace {");
     out_.blank();
     out_.raw_line("using namespace scc::runtime;");
     out_.blank();
-    std::string source = out_.take() + type;
-    for (const std::string& definition : blob_tables_) {
-        source += definition + "\n";
-    }
-    return {source + "\n" + rest, std::move(blob_)};
+    const std::string head = out_.take();
+    out_ = Writer();
+    program();
+    return {head + type + "\n" + out_.take(), values};
 }
 
 } // namespace
 
-CppProgram emit_cpp(const ir::Scene& scene, Precision precision, const std::string& blob_name) {
-    return precision == Precision::single ? Emitter<float>(scene, precision, blob_name).emit()
-                                          : Emitter<double>(scene, precision, blob_name).emit();
+CppProgram emit_cpp(const ir::Scene& scene, Precision precision, Numbers numbers,
+                    const std::string& values_name) {
+    return precision == Precision::single ? Emitter<float>(scene, precision, numbers, values_name).emit()
+                                          : Emitter<double>(scene, precision, numbers, values_name).emit();
 }
 
 } // namespace scc::compiler

@@ -3,19 +3,34 @@
 #include "compiler/backends/precision.h"
 #include "compiler/ir/scene.h"
 
+#include <array>
 #include <string>
+#include <string_view>
 
 namespace scc::compiler {
+
+/// What every generated program includes, in its order and with its brackets.
+inline constexpr auto program_headers =
+    std::to_array<std::string_view>({"\"runtime/accel/build.h\"", "\"runtime/host/program.h\"",
+                                     "\"runtime/render.h\"", "<array>", "<cstdint>", "<span>", "<vector>"});
+
+/// Where a generated program has its scene's numbers.
+enum class Numbers {
+    in_code,  ///< small tables as constants, to be read and compiled by a person
+    as_values ///< all in CppProgram::values; the source depends on the scene's structure alone
+};
 
 /// A program that draws one scene: data and one type over the runtime's headers.
 struct CppProgram {
     std::string source;
-    std::string
-        blob; ///< large tables and meshes as bytes, which the source takes in by `.incbin`; may be empty
+    /// As host::ValuesWriter gives them. With Numbers::in_code the large tables and meshes, which the source
+    /// takes in by `.incbin`, or nothing.
+    std::string values;
 };
 
-/// `blob_name`: the name under which the blob will lie beside the source. Its letters, digits, `_`, `-` and
-/// `.` only.
-CppProgram emit_cpp(const ir::Scene& scene, Precision precision, const std::string& blob_name);
+/// `values_name`: the name under which the values will lie beside the source. Its letters, digits, `_`, `-`
+/// and `.` only.
+CppProgram emit_cpp(const ir::Scene& scene, Precision precision, Numbers numbers,
+                    const std::string& values_name = "");
 
 } // namespace scc::compiler

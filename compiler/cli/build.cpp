@@ -1,4 +1,5 @@
 #include "compiler/backends/cpp.h"
+#include "compiler/cli/build_report.h"
 #include "compiler/cli/commands.h"
 #include "compiler/cli/native.h"
 #include "compiler/ir/print.h"
@@ -27,6 +28,8 @@ struct Options {
     std::string output;
     Emit emit = Emit::exe;
     compiler::Precision precision = compiler::Precision::full;
+    NativeOptions native;
+    std::string report; ///< "text", "json" or empty
 };
 
 Stage stage_for(Emit emit) {
@@ -44,15 +47,16 @@ Stage stage_for(Emit emit) {
 }
 
 void emit_source(const Loaded& loaded, const Options& options) {
-    const std::string blob_name =
-        compiler::Identifiers("scene_").make(fs::path(options.output).stem().string()) + ".blob";
-    const compiler::CppProgram program = emit_cpp(loaded.scene, options.precision, blob_name);
-    if (!program.blob.empty()) {
+    const std::string values_name =
+        compiler::Identifiers("scene_").make(fs::path(options.output).stem().string()) + ".values";
+    const compiler::CppProgram program =
+        emit_cpp(loaded.scene, options.precision, compiler::Numbers::in_code, values_name);
+    if (!program.values.empty()) {
         if (options.output == "-") {
             throw host::UsageError(
                 "this scene's program has a second file with its large tables: give `-o` a file name");
         }
-        host::replace_file((fs::path(options.output).parent_path() / blob_name).string(), program.blob);
+        host::replace_file((fs::path(options.output).parent_path() / values_name).string(), program.values);
     }
     write_result(options.output, program.source);
 }
@@ -61,11 +65,18 @@ void emit_program(const Loaded& loaded, const Options& options) {
     if (options.output == "-") {
         throw host::UsageError("a program cannot go to standard output: give `-o` a file name");
     }
-    const std::string blob_name = "scene.blob";
-    compile_native(emit_cpp(loaded.scene, options.precision, blob_name), blob_name, options.output);
+    compile_native(emit_cpp(loaded.scene, options.precision, compiler::Numbers::as_values), options.native,
+                   options.output);
+    if (!options.report.empty()) {
+        const ReportKind kind = options.report == "json" ? ReportKind::json : ReportKind::text;
+        write_result("-", build_report(loaded, options.precision, options.native, options.output, kind));
+    }
 }
 
 int build(const Options& options) {
+    if (!options.report.empty() && options.emit != Emit::exe) {
+        throw host::UsageError("`--report` is about the program: leave out `--emit`");
+    }
     const Loaded loaded = load(options.scene, stage_for(options.emit));
     if (!report(loaded)) {
         return host::exit_scene;
@@ -112,6 +123,21 @@ void add_build(CLI::App& app, Run& selected) {
             "stop at this stage (default: exe)")
         ->check(CLI::IsMember({"exe", "cpp", "ir", "ast", "tokens"}))
         ->type_name("exe|cpp|ir|ast|tokens");
+    static const std::map<std::string, Target> targets{{"host", Target::host},
+                                                       {"baseline", Target::baseline}};
+    command
+        ->add_option_function<std::string>(
+            "--target", [options](const std::string& name) { options->native.target = targets.at(name); },
+            "whose instructions the program may use: this machine's (default), or any's of its architecture")
+        ->check(CLI::IsMember({"host", "baseline"}))
+        ->type_name("host|baseline");
+    command
+        ->add_flag("--report{text}", options->report,
+                   "say what the program holds and leaves out, and what that saves; --report=json: as JSON")
+        ->check(CLI::IsMember({"text", "json"}));
+    command->add_flag_callback(
+        "--no-cache", [options] { options->native.cache = {}; },
+        "compile, even if the same code was compiled before");
     command->callback([&selected, options] { selected = [options] { return build(*options); }; });
 }
 

@@ -2,6 +2,7 @@
 
 #include "compiler/backends/precision.h"
 #include "compiler/cli/pipeline.h"
+#include "runtime/host/options.h"
 
 #include <functional>
 #include <stdexcept>
@@ -43,6 +44,11 @@ void add_scene_values(CLI::App& app, SceneOptions& options);
 
 /// `--precision auto|float|double`. `auto` is double: in scalar kernels float gains nothing.
 void add_precision_option(CLI::App& app, compiler::Precision& precision);
+
+/// The render options, or those of them that say how the picture is drawn. Bad values are CLI's usage errors.
+enum class RenderOptionSet { all, picture };
+void add_render_options(CLI::App& app, host::RenderOptions& options,
+                        RenderOptionSet set = RenderOptionSet::all);
 
 /// Result text: `-` is standard output.
 void write_result(const std::string& path, const std::string& text);

@@ -3,6 +3,7 @@
 #include "compiler/cli/commands.h"
 #include "runtime/host/image_file.h"
 #include "runtime/host/options.h"
+#include "runtime/host/read_image.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>

@@ -40,6 +40,28 @@ void add_precision_option(CLI::App& app, compiler::Precision& precision) {
         ->type_name("auto|float|double");
 }
 
+void add_render_options(CLI::App& app, host::RenderOptions& options, RenderOptionSet set) {
+    for (const host::OptionRow& row : host::render_option_rows()) {
+        if (set == RenderOptionSet::picture && !row.picture) {
+            continue;
+        }
+        const std::string names =
+            (row.short_name != nullptr ? std::string(row.short_name) + "," : "") + row.name;
+        app.add_option_function<std::string>(
+               names,
+               [&options, &row](const std::string& value) {
+                   try {
+                       row.set(options, value);
+                   } catch (const host::UsageError& error) {
+                       throw CLI::ValidationError(row.name, error.what());
+                   }
+               },
+               row.help)
+            ->required(row.required)
+            ->type_name(row.value);
+    }
+}
+
 void write_result(const std::string& path, const std::string& text) {
     if (path != "-") {
         host::replace_file(path, text);

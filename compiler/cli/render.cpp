@@ -39,7 +39,7 @@ void add_render(CLI::App& app, Run& selected) {
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("render", "draw a scene in this process");
     add_scene_options(*command, options->scene);
-    host::add_render_options(*command, options->render);
+    add_render_options(*command, options->render);
     add_precision_option(*command, options->precision);
     command->add_option("--mode", options->mode, "ray casting (raster is not supported yet)")
         ->check(CLI::IsMember({"ray", "raster"}))

@@ -4,8 +4,8 @@
 #include "compiler/cli/export.h"
 #include "compiler/cli/native.h"
 #include "runtime/host/file.h"
-#include "runtime/host/image_file.h"
 #include "runtime/host/options.h"
+#include "runtime/host/read_image.h"
 #include "validation/renderers.h"
 #include "validation/report.h"
 #include "validation/scratch.h"
@@ -87,10 +87,10 @@ RendererReport run_native(const Subject& subject) {
     RendererReport result;
     result.renderer = "native";
     const std::string program = (subject.folder.path() / "native").string();
-    const std::string blob_name = "scene.blob";
     try {
-        compile_native(emit_cpp(subject.loaded.scene, compiler::Precision::full, blob_name), blob_name,
-                       program);
+        compile_native(
+            emit_cpp(subject.loaded.scene, compiler::Precision::full, compiler::Numbers::as_values), {},
+            program);
     } catch (const EnvironmentError& error) {
         result.judgement = {Verdict::skipped, error.what()};
         return result;
@@ -257,7 +257,7 @@ void add_validate(CLI::App& app, Run& selected) {
     command->add_option("--report", options->report, "folder for report.json, index.html and the pictures")
         ->required()
         ->type_name("DIR");
-    host::add_picture_options(*command, options->render);
+    add_render_options(*command, options->render, RenderOptionSet::picture);
     command->add_option("--timeout", options->timeout_seconds, "seconds that one renderer may take")
         ->capture_default_str();
     command->footer("\nExits with 1 if a comparison is over its budget, with 3 if all that ran passed but a "

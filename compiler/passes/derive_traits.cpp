@@ -1,3 +1,4 @@
+#include "compiler/ir/traits.h"
 #include "compiler/passes/passes.h"
 
 #include <algorithm>
@@ -48,27 +49,45 @@ void need(SceneTraits& traits, const runtime::DirectionalLight<double>& light) {
     traits.separate_specular |= !(light.diffuse == light.specular);
 }
 
+void add(SceneTraits& traits, const SceneTraits& more) {
+    traits.bare_shapes |= more.bare_shapes;
+    traits.placed_shapes |= more.placed_shapes;
+    for (const ir::TraitFlag& flag : ir::trait_flags) {
+        traits.*flag.member |= more.*flag.member;
+    }
+}
+
 } // namespace
+
+std::vector<Need> needs_of(const ir::Scene& scene) {
+    std::vector<Need> needs;
+    for (const ir::Object& object : scene.objects) {
+        need(needs.emplace_back(SceneTraits{}, object.span).traits, object, scene);
+    }
+    for (const ir::Material& material : scene.materials) {
+        need(needs.emplace_back(SceneTraits{}, material.span).traits, material.phong, scene.settings.depth);
+    }
+    for (const ir::Light& light : scene.lights) {
+        SceneTraits& traits = needs.emplace_back(SceneTraits{}, light.span).traits;
+        traits.shadows = scene.settings.shadows;
+        std::visit([&](const auto& l) { need(traits, l); }, light.light);
+    }
+    SceneTraits& camera = needs.emplace_back(SceneTraits{}, scene.camera_span).traits;
+    camera.perspective = scene.camera.projection == runtime::Projection::perspective;
+    camera.orthographic = scene.camera.projection == runtime::Projection::orthographic;
+    return needs;
+}
 
 void derive_traits(ir::Scene& scene) {
     SceneTraits traits;
-    for (const ir::Object& object : scene.objects) {
-        need(traits, object, scene);
-    }
-    for (const ir::Material& material : scene.materials) {
-        need(traits, material.phong, scene.settings.depth);
-    }
-    for (const ir::Light& light : scene.lights) {
-        std::visit([&](const auto& l) { need(traits, l); }, light.light);
+    for (const Need& need : needs_of(scene)) {
+        add(traits, need.traits);
     }
     const auto bounded =
         std::count_if(scene.objects.begin(), scene.objects.end(), [](const ir::Object& object) {
             return !std::holds_alternative<runtime::Plane<double>>(object.shape);
         });
     traits.accelerator = static_cast<std::size_t>(bounded) > runtime::accelerator_threshold;
-    traits.shadows = scene.settings.shadows && !scene.lights.empty();
-    traits.perspective = scene.camera.projection == runtime::Projection::perspective;
-    traits.orthographic = scene.camera.projection == runtime::Projection::orthographic;
     scene.traits = traits;
 }
 

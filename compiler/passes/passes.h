@@ -4,6 +4,7 @@
 
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace scc::compiler {
 
@@ -22,5 +23,14 @@ void run_passes(ir::Scene& scene);
 void flatten_transforms(ir::Scene& scene);
 void drop_unused(ir::Scene& scene);
 void derive_traits(ir::Scene& scene);
+
+/// What one thing in the scene asks for, and where it is written.
+struct Need {
+    runtime::SceneTraits traits;
+    lang::Span span;
+};
+/// In the order of objects, materials, lights, camera. All together are the scene's traits, but for
+/// `accelerator`, which is due to the objects' number.
+std::vector<Need> needs_of(const ir::Scene& scene);
 
 } // namespace scc::compiler

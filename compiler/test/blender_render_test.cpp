@@ -2,7 +2,7 @@
 #include "compiler/backends/render.h"
 #include "compiler/test/folder.h"
 #include "compiler/test/support.h"
-#include "runtime/host/image_file.h"
+#include "runtime/host/read_image.h"
 
 #include <gtest/gtest.h>
 

@@ -86,7 +86,7 @@ inline MeshStorage build_mesh(const std::vector<float>& positions, const std::ve
     if (bvh.nodes.empty()) {
         return mesh;
     }
-    mesh.triangles.resize(words_per_triangle * bvh.order.size() + triangle_padding);
+    mesh.triangles.resize(triangle_words(static_cast<std::uint32_t>(bvh.order.size())));
     constexpr std::size_t nodes_per_task = 1024;
     detail::share_work((bvh.nodes.size() + nodes_per_task - 1) / nodes_per_task, options.threads,
                        [&](std::size_t task) {

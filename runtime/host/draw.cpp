@@ -4,11 +4,10 @@
 #include "runtime/host/image_file.h"
 #include "runtime/host/progress.h"
 
-#include <fmt/core.h>
-#include <nlohmann/json.hpp>
-
+#include <charconv>
 #include <chrono>
 #include <cstdio>
+#include <string_view>
 #include <sys/resource.h>
 
 namespace scc::host {
@@ -27,40 +26,83 @@ double peak_rss_mb() {
     return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
+std::string json(double number) {
+    char text[32];
+    const auto [end, error] = std::to_chars(text, text + sizeof text, number);
+    return {text, end};
+}
+std::string json(std::uint64_t number) {
+    return std::to_string(number);
+}
+std::string json(int number) {
+    return std::to_string(number);
+}
+/// Control characters are written as \u00xx; the rest is UTF-8 as it is.
+std::string json(std::string_view text) {
+    std::string quoted = "\"";
+    for (const char c : text) {
+        if (static_cast<unsigned char>(c) < 0x20) {
+            quoted += std::string("\\u00") + (c < 0x10 ? '0' : '1') + "0123456789abcdef"[c & 15];
+        } else {
+            quoted += c == '"' || c == '\\' ? std::string{'\\', c} : std::string(1, c);
+        }
+    }
+    return quoted + '"';
+}
+
+/// Joins members or entries that are JSON already: on lines of their own, or all on one for no `indent`.
+std::string list(const char* brackets, const std::vector<std::string>& entries, std::size_t indent) {
+    const auto line = [&](std::size_t depth) { return indent == 0 ? "" : "\n" + std::string(depth, ' '); };
+    std::string text(1, brackets[0]);
+    for (const std::string& entry : entries) {
+        text += (text.size() > 1 ? "," : "") + line(indent) + entry;
+    }
+    return text + (indent == 0 ? "" : line(indent - 2)) + brackets[1];
+}
+template <class T>
+std::string member(std::string_view name, const T& value) {
+    return json(name) + ": " + json(value);
+}
+
 std::string statistics(const Drawable& drawable, const runtime::RenderRequest& request,
                        const runtime::RenderResult& result, double render_ms, double write_ms) {
-    nlohmann::ordered_json times;
+    std::vector<std::string> times;
     double total = render_ms + write_ms;
-    for (const char* stage : {"parse", "check", "lower", "passes", "accel"}) {
-        times[stage] = 0.0;
+    for (const std::string_view stage : {"parse", "check", "lower", "passes", "accel"}) {
+        double spent = 0;
+        for (const auto& [name, ms] : drawable.times_ms) {
+            spent += name == stage ? ms : 0;
+        }
+        times.push_back(member(stage, spent));
+        total += spent;
     }
-    for (const auto& [stage, ms] : drawable.times_ms) {
-        times[stage] = ms;
-        total += ms;
-    }
-    times["render"] = render_ms;
-    times["write"] = write_ms;
-    times["total"] = total;
+    times.push_back(member("render", render_ms));
+    times.push_back(member("write", write_ms));
+    times.push_back(member("total", total));
     const runtime::RayCounts& rays = result.rays;
     const auto count = static_cast<double>(rays.primary + rays.shadow + rays.reflected);
-    const nlohmann::ordered_json json{
-        {"schema", 1},
-        {"scene", drawable.scene},
-        {"size", {request.settings.width, request.settings.height}},
-        {"samples", request.settings.samples_per_axis * request.settings.samples_per_axis},
-        {"threads", request.threads},
-        {"precision", drawable.precision},
-        {"isa", drawable.isa},
-        {"times_ms", times},
-        {"rays",
-         {{"primary", rays.primary},
-          {"shadow", rays.shadow},
-          {"reflected", rays.reflected},
-          {"refracted", 0}}},
-        {"mrays_per_s", render_ms > 0 ? count / render_ms / 1000 : 0},
-        {"peak_rss_mb", peak_rss_mb()},
-        {"features", drawable.features}};
-    return json.dump(2) + "\n";
+    std::vector<std::string> features;
+    for (const std::string& feature : drawable.features) {
+        features.push_back(json(feature));
+    }
+    const runtime::RenderSettings& settings = request.settings;
+    const std::vector<std::string> members{
+        member("schema", 1),
+        member("scene", std::string_view(drawable.scene)),
+        "\"size\": " + list("[]", {json(settings.width), json(settings.height)}, 0),
+        member("samples", settings.samples_per_axis * settings.samples_per_axis),
+        member("threads", request.threads),
+        member("precision", std::string_view(drawable.precision)),
+        member("isa", std::string_view(drawable.isa)),
+        "\"times_ms\": " + list("{}", times, 4),
+        "\"rays\": " + list("{}",
+                            {member("primary", rays.primary), member("shadow", rays.shadow),
+                             member("reflected", rays.reflected), member("refracted", 0)},
+                            4),
+        member("mrays_per_s", render_ms > 0 ? count / render_ms / 1000 : 0.0),
+        member("peak_rss_mb", peak_rss_mb()),
+        "\"features\": " + list("[]", features, 4)};
+    return list("{}", members, 2) + "\n";
 }
 
 } // namespace
@@ -74,7 +116,7 @@ int draw(const Drawable& drawable, const RenderOptions& options) {
     const auto render_start = Clock::now();
     {
         const InterruptGuard guard;
-        ProgressLine line(fmt::format("render {}", drawable.scene), options.progress);
+        ProgressLine line("render " + drawable.scene, options.progress);
         request.progress = [&](double done) {
             line.update(done);
             return !InterruptGuard::interrupted();
@@ -82,13 +124,13 @@ int draw(const Drawable& drawable, const RenderOptions& options) {
         result = drawable.render(request, image);
     }
     if (!result.complete) {
-        fmt::print(stderr, "interrupted; no picture was written\n");
+        std::fputs("interrupted; no picture was written\n", stderr);
         return exit_interrupted;
     }
     const double render_ms = milliseconds_since(render_start);
 
     const auto write_start = Clock::now();
-    write_image(options.output, image, {.bits = options.bits});
+    write_image(options.output, image, {.bits = options.bits, .threads = request.threads});
     const double write_ms = milliseconds_since(write_start);
 
     if (!options.stats.empty()) {

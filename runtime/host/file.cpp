@@ -1,12 +1,12 @@
 #include "runtime/host/file.h"
 
-#include <fmt/core.h>
-
 #include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <sys/mman.h>
+#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& path, int error) {
-    throw FileError(fmt::format("cannot write `{}`: {}", path, std::strerror(error)));
+    throw FileError("cannot write `" + path + "`: " + std::strerror(error));
 }
 
 class Descriptor {
@@ -84,7 +84,7 @@ fs::path target_of(const std::string& path) {
 
 } // namespace
 
-void replace_file(const std::string& path, std::string_view bytes) {
+void replace_file(const std::string& path, std::string_view bytes, FileKind kind) {
     const fs::path target = target_of(path);
     std::error_code none;
     const fs::file_status status = fs::status(target, none);
@@ -95,8 +95,10 @@ void replace_file(const std::string& path, std::string_view bytes) {
 
     static std::atomic<unsigned> counter{0};
     // Not derived from the file's own name, which may already be as long as the file system allows.
-    const fs::path name = target.parent_path() / fmt::format(".scc-{}-{}.tmp", ::getpid(), ++counter);
-    Descriptor file(::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    const fs::path name = target.parent_path() /
+                          (".scc-" + std::to_string(::getpid()) + "-" + std::to_string(++counter) + ".tmp");
+    Descriptor file(::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC,
+                           kind == FileKind::program ? 0777 : 0666));
     if (file.get() < 0)
         fail(path, errno);
     TemporaryName temporary(name);
@@ -104,6 +106,30 @@ void replace_file(const std::string& path, std::string_view bytes) {
     if (::rename(name.c_str(), target.c_str()) != 0)
         fail(path, errno);
     temporary.release();
+}
+
+MappedFile::MappedFile(const std::string& path) {
+    const auto fail_reading = [&](int error) {
+        throw FileError("cannot read `" + path + "`: " + std::strerror(error));
+    };
+    Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    struct stat status {};
+    if (file.get() < 0 || ::fstat(file.get(), &status) != 0)
+        fail_reading(errno);
+    if (!S_ISREG(status.st_mode))
+        fail_reading(S_ISDIR(status.st_mode) ? EISDIR : EINVAL);
+    const auto size = static_cast<std::size_t>(status.st_size);
+    if (size == 0)
+        return;
+    void* memory = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.get(), 0);
+    if (memory == MAP_FAILED)
+        fail_reading(errno);
+    bytes_ = {static_cast<const std::byte*>(memory), size};
+}
+
+MappedFile::~MappedFile() {
+    if (!bytes_.empty())
+        ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
 }
 
 } // namespace scc::host

@@ -4,14 +4,14 @@
 #include "runtime/image.h"
 
 #include <string>
-#include <vector>
 
-/// Image files through OpenImageIO. Linear light in memory; the file's encoding follows from its type.
+/// Writing image files. Linear light in memory; the file's encoding follows from its type.
 namespace scc::host {
 
 struct ImageFileOptions {
     int bits = 8;         ///< of a PNG: 8 or 16
-    bool compact = false; ///< an EXR is compressed: less than half the size, six times the time
+    bool compact = false; ///< an EXR is compressed: less than half the size, several times the time
+    int threads = 1;      ///< that encode
 };
 
 /// True for `.exr` (32-bit float linear), `.png` (sRGB-encoded), `.pfm` (float linear); case does not matter.
@@ -22,13 +22,5 @@ bool is_image_type_known(const std::string& path);
 /// alone. Throws FileError; for an unknown type, another number of channels or of bits,
 /// std::invalid_argument.
 void write_image(const std::string& path, const runtime::Image& image, const ImageFileOptions& options = {});
-
-/// The bytes of such a PNG file.
-std::vector<unsigned char> encode_png(const runtime::Image& image, int bits = 8);
-
-/// Reads any type that OpenImageIO knows. Integer files are decoded from sRGB unless `linear_integers`
-/// (a 16-bit PNG that POV-Ray wrote with File_Gamma=1.0). At most the first three channels are
-/// kept, and no alpha; of a multi-part file the first part. Throws FileError.
-runtime::Image read_image(const std::string& path, bool linear_integers = false);
 
 } // namespace scc::host

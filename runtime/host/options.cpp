@@ -2,15 +2,16 @@
 
 #include "runtime/host/image_file.h"
 
-#include <CLI/CLI.hpp>
-#include <fmt/core.h>
-
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <string_view>
 #include <thread>
 #include <unistd.h>
+#include <vector>
 
 namespace scc::host {
 
@@ -41,20 +42,24 @@ std::vector<int> whole_numbers(std::string_view text, char separator) {
     }
 }
 
+[[noreturn]] void refuse(const std::string& value, const char* wanted) {
+    throw UsageError("`" + value + "` is not " + wanted);
+}
+
 void set_size(RenderOptions& options, const std::string& text) {
     const std::vector<int> size = whole_numbers(text, 'x');
     if (size.size() != 2 || size[0] < 1 || size[1] < 1 || size[0] > max_side || size[1] > max_side) {
-        throw CLI::ValidationError(
-            "--size", fmt::format("`{}` is not WxH, two whole numbers from 1 to {}", text, max_side));
+        refuse(text, "WxH, two whole numbers from 1 to 65536");
     }
     options.size = {size[0], size[1]};
 }
 
-void set_samples(RenderOptions& options, int samples) {
-    const int root = samples > 0 ? static_cast<int>(std::lround(std::sqrt(samples))) : 0;
-    if (root < 1 || root > 64 || root * root != samples) {
-        throw CLI::ValidationError(
-            "--samples", fmt::format("{} is not a square number from 1 to 4096 (1, 4, 9, 16, ...)", samples));
+void set_samples(RenderOptions& options, const std::string& text) {
+    const std::vector<int> samples = whole_numbers(text, ',');
+    const int root =
+        samples.size() == 1 && samples[0] > 0 ? static_cast<int>(std::lround(std::sqrt(samples[0]))) : 0;
+    if (root < 1 || root > 64 || root * root != samples[0]) {
+        refuse(text, "a square number from 1 to 4096 (1, 4, 9, 16, ...)");
     }
     options.samples_per_axis = root;
 }
@@ -62,11 +67,87 @@ void set_samples(RenderOptions& options, int samples) {
 void set_crop(RenderOptions& options, const std::string& text) {
     const std::vector<int> c = whole_numbers(text, ',');
     if (c.size() != 4 || c[0] < 0 || c[1] < 0 || c[0] >= c[2] || c[1] >= c[3]) {
-        throw CLI::ValidationError(
-            "--crop",
-            fmt::format("`{}` is not X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1, rows from the top", text));
+        refuse(text, "X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1, rows from the top");
     }
     options.crop = runtime::Crop{c[0], c[1], c[2], c[3]};
+}
+
+void set_threads(RenderOptions& options, const std::string& text) {
+    const std::vector<int> threads = whole_numbers(text, ',');
+    if (threads.size() != 1 || threads[0] < 1 || threads[0] > 1024) {
+        refuse(text, "a whole number from 1 to 1024");
+    }
+    options.threads = threads[0];
+}
+
+void set_bits(RenderOptions& options, const std::string& text) {
+    if (text != "8" && text != "16") {
+        refuse(text, "8 or 16");
+    }
+    options.bits = text == "8" ? 8 : 16;
+}
+
+void set_progress(RenderOptions& options, const std::string& text) {
+    if (text != "auto" && text != "always" && text != "never") {
+        refuse(text, "auto, always or never");
+    }
+    options.progress = text == "auto"     ? ProgressMode::automatic
+                       : text == "always" ? ProgressMode::always
+                                          : ProgressMode::never;
+}
+
+constexpr auto rows = std::to_array<OptionRow>({
+    {"--output", "-o", "IMG", "the picture: .png (8 or 16 bit, sRGB), .exr or .pfm (float, linear)", false,
+     true, [](RenderOptions& options, const std::string& text) { options.output = text; }},
+    {"--size", nullptr, "WxH", "size in pixels", true, false, set_size},
+    {"--samples", nullptr, "N", "samples per pixel, a square number", true, false, set_samples},
+    {"--threads", nullptr, "N", "threads; default: one per core", true, false, set_threads},
+    {"--crop", nullptr, "X0,Y0,X1,Y1", "draw only these pixels, rows from the top, ends excluded", false,
+     false, set_crop},
+    {"--bits", nullptr, "8|16", "of a PNG", false, false, set_bits},
+    {"--progress", nullptr, "auto|always|never",
+     "progress line on stderr; auto: on a terminal, after a second", false, false, set_progress},
+    {"--stats", nullptr, "FILE.json", "write times, ray counts and features as JSON; - for stdout", false,
+     false, [](RenderOptions& options, const std::string& text) { options.stats = text; }},
+});
+
+void print_help(const std::string& program, const std::string& purpose) {
+    std::string text = purpose + "\n\nUsage: " + program;
+    for (const OptionRow& row : rows) {
+        if (row.required) {
+            text +=
+                std::string(" ") + (row.short_name != nullptr ? row.short_name : row.name) + " " + row.value;
+        }
+    }
+    text += " [OPTIONS]\n\nOptions:\n";
+    constexpr std::size_t column = 32;
+    const auto add = [&](std::string line, const char* help) {
+        line.resize(std::max(line.size() + 1, column), ' ');
+        text += line + help + "\n";
+    };
+    add("  -h,--help", "print this");
+    for (const OptionRow& row : rows) {
+        const std::string short_name = row.short_name != nullptr ? std::string(row.short_name) + "," : "";
+        add("  " + short_name + row.name + " " + row.value, row.help);
+    }
+    std::fputs(text.c_str(), stdout);
+}
+
+/// The row that `argument` names, and the value if it is in the same word (`--size=8x8`, `-oa.png`).
+std::pair<const OptionRow*, std::optional<std::string>> find_row(const std::string& argument) {
+    for (const OptionRow& row : rows) {
+        const std::string name = row.name;
+        if (argument == name || (row.short_name != nullptr && argument == row.short_name)) {
+            return {&row, std::nullopt};
+        }
+        if (argument.starts_with(name + "=")) {
+            return {&row, argument.substr(name.size() + 1)};
+        }
+        if (row.short_name != nullptr && argument.starts_with(row.short_name)) {
+            return {&row, argument.substr(2)};
+        }
+    }
+    throw UsageError("there is no option `" + argument + "`; --help lists them");
 }
 
 int core_count() {
@@ -75,38 +156,42 @@ int core_count() {
 
 } // namespace
 
-void add_picture_options(CLI::App& app, RenderOptions& options) {
-    app.add_option_function<std::string>(
-           "--size", [&](const std::string& text) { set_size(options, text); }, "size in pixels")
-        ->type_name("WxH");
-    app.add_option_function<int>(
-           "--samples", [&](const int& n) { set_samples(options, n); }, "samples per pixel, a square number")
-        ->type_name("N");
-    app.add_option("--threads", options.threads, "threads; default: one per core")
-        ->check(CLI::Range(1, 1024))
-        ->type_name("N");
+std::span<const OptionRow> render_option_rows() {
+    return rows;
 }
 
-void add_render_options(CLI::App& app, RenderOptions& options) {
-    app.add_option("-o,--output", options.output,
-                   "the picture: .png (8 or 16 bit, sRGB), .exr or .pfm (float, linear)")
-        ->required()
-        ->type_name("IMG");
-    add_picture_options(app, options);
-    app.add_option_function<std::string>(
-           "--crop", [&](const std::string& text) { set_crop(options, text); },
-           "draw only these pixels, rows from the top, ends excluded")
-        ->type_name("X0,Y0,X1,Y1");
-    app.add_option("--bits", options.bits, "of a PNG")->check(CLI::IsMember({8, 16}))->type_name("8|16");
-    static const std::map<std::string, ProgressMode> modes{
-        {"auto", ProgressMode::automatic}, {"always", ProgressMode::always}, {"never", ProgressMode::never}};
-    app.add_option_function<std::string>(
-           "--progress", [&](const std::string& mode) { options.progress = modes.at(mode); },
-           "progress line on stderr; auto: on a terminal, after a second")
-        ->check(CLI::IsMember({"auto", "always", "never"}))
-        ->type_name("auto|always|never");
-    app.add_option("--stats", options.stats, "write times, ray counts and features as JSON; - for stdout")
-        ->type_name("FILE.json");
+std::optional<RenderOptions> parse_program_options(int argc, char** argv, const std::string& purpose) {
+    RenderOptions options;
+    std::array<bool, rows.size()> given{};
+    for (int i = 1; i < argc; ++i) {
+        const std::string argument = argv[i];
+        if (argument == "-h" || argument == "--help") {
+            print_help(argv[0], purpose);
+            return std::nullopt;
+        }
+        auto [row, value] = find_row(argument);
+        if (!value) {
+            if (++i >= argc) {
+                throw UsageError(argument + " needs a value, " + row->value);
+            }
+            value = argv[i];
+        }
+        bool& before = given[static_cast<std::size_t>(row - rows.data())];
+        if (std::exchange(before, true)) {
+            throw UsageError(std::string(row->name) + " is given twice");
+        }
+        try {
+            row->set(options, *value);
+        } catch (const UsageError& error) {
+            throw UsageError(std::string(row->name) + ": " + error.what());
+        }
+    }
+    for (const OptionRow& row : rows) {
+        if (row.required && !given[static_cast<std::size_t>(&row - rows.data())]) {
+            throw UsageError(std::string(row.name) + " is required; --help lists all options");
+        }
+    }
+    return options;
 }
 
 void check_output(const RenderOptions& options) {
@@ -116,8 +201,7 @@ void check_output(const RenderOptions& options) {
             "a picture cannot go to standard output: give `-o` a file name that ends in .png, .exr or .pfm");
     }
     if (!is_image_type_known(options.output)) {
-        throw UsageError(
-            fmt::format("`{}` has no known image type; it ends in .png, .exr or .pfm", options.output));
+        throw UsageError("`" + options.output + "` has no known image type; it ends in .png, .exr or .pfm");
     }
     fs::path folder = fs::path(options.output).parent_path();
     if (folder.empty()) {
@@ -125,15 +209,15 @@ void check_output(const RenderOptions& options) {
     }
     std::error_code error;
     if (!fs::is_directory(folder, error)) {
-        throw FileError(
-            fmt::format("cannot write `{}`: there is no folder `{}`", options.output, folder.string()));
+        throw FileError("cannot write `" + options.output + "`: there is no folder `" + folder.string() +
+                        "`");
     }
     if (access(folder.c_str(), W_OK) != 0) {
-        throw FileError(fmt::format("cannot write `{}`: the folder `{}` is not writable", options.output,
-                                    folder.string()));
+        throw FileError("cannot write `" + options.output + "`: the folder `" + folder.string() +
+                        "` is not writable");
     }
     if (fs::is_directory(options.output, error)) {
-        throw FileError(fmt::format("cannot write `{}`: it is a folder", options.output));
+        throw FileError("cannot write `" + options.output + "`: it is a folder");
     }
 }
 
@@ -151,9 +235,10 @@ runtime::RenderRequest make_request(const RenderOptions& options, const runtime:
     request.crop =
         options.crop.value_or(runtime::Crop{0, 0, request.settings.width, request.settings.height});
     if (request.crop.x1 > request.settings.width || request.crop.y1 > request.settings.height) {
-        throw UsageError(fmt::format("the crop reaches to ({}, {}); the picture has {} x {} pixels",
-                                     request.crop.x1, request.crop.y1, request.settings.width,
-                                     request.settings.height));
+        throw UsageError("the crop reaches to (" + std::to_string(request.crop.x1) + ", " +
+                         std::to_string(request.crop.y1) + "); the picture has " +
+                         std::to_string(request.settings.width) + " x " +
+                         std::to_string(request.settings.height) + " pixels");
     }
     return request;
 }

@@ -3,13 +3,10 @@
 #include "runtime/render_request.h"
 
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
-#include <vector>
-
-namespace CLI {
-class App;
-}
+#include <utility>
 
 /// The render options, shared by `scc render` and the programs that `scc build` makes.
 namespace scc::host {
@@ -41,11 +38,23 @@ struct RenderOptions {
     std::string stats; ///< file, `-` for standard output, or empty
 };
 
-/// Adds the options to a command; the texts are parsed as the command line is read, bad ones are CLI's usage
-/// errors.
-void add_render_options(CLI::App& app, RenderOptions& options);
-/// Those of them that say how the picture is drawn: --size, --samples, --threads.
-void add_picture_options(CLI::App& app, RenderOptions& options);
+/// One of the render options, as the command line has it: always a name and a value.
+struct OptionRow {
+    const char* name;       ///< with its dashes
+    const char* short_name; ///< or null
+    const char* value;      ///< what stands for the value in the help
+    const char* help;
+    bool picture; ///< says how the picture is drawn, and not where it goes
+    bool required;
+    /// Throws UsageError for a bad value; the text says what a good one is.
+    void (*set)(RenderOptions&, const std::string& value);
+};
+/// All of them: the one table that scc's commands and the programs' own command line are made from.
+std::span<const OptionRow> render_option_rows();
+
+/// A built program's command line. Nothing if it asked for `--help`, which then was printed with `purpose` at
+/// its head. Throws UsageError.
+std::optional<RenderOptions> parse_program_options(int argc, char** argv, const std::string& purpose);
 
 /// What can be told before any work: an unknown image type, `-o -` (UsageError), a folder that cannot be
 /// written (FileError).

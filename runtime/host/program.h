@@ -1,19 +1,24 @@
 #pragma once
 
+#include "runtime/host/values.h"
 #include "runtime/image.h"
 #include "runtime/render_request.h"
 
 namespace scc::host {
 
-/// What a program made by `scc build` is: its scene's name and settings, and the one function compiled for
-/// it.
+/// What a program made by `scc build` is: the code compiled for a scene, and where the scene's numbers are.
 struct Program {
-    const char* scene;
     const char* precision;
     const char* isa;
     const char* const* features; ///< ends with a null pointer
-    runtime::RenderSettings settings;
-    runtime::RenderResult (*render)(const runtime::RenderRequest&, runtime::Image&);
+    /// Takes the values that are not constants of the code. Called once, before `draw`.
+    void (*load)(Values&);
+    runtime::RenderResult (*draw)(const runtime::RenderRequest&, runtime::Image&);
+    /// Null: the name and the settings come first among the values at the end of the program's file.
+    const char* scene = nullptr;
+    runtime::RenderSettings settings{};
+    const unsigned char* values = nullptr; ///< with a name: those that `load` reads, or null for none
+    std::size_t values_size = 0;
 };
 
 /// The program's main: reads the options, draws, writes. Returns the exit code.

@@ -1,7 +1,5 @@
 #include "runtime/host/progress.h"
 
-#include <fmt/core.h>
-
 #include <csignal>
 #include <cstdio>
 #include <unistd.h>
@@ -16,13 +14,20 @@ extern "C" void note_interrupt(int) {
     interrupt_flag = 1;
 }
 
+template <class... T>
+std::string text_of(const char* format, T... value) {
+    char text[64];
+    std::snprintf(text, sizeof text, format, value...);
+    return text;
+}
+
 std::string duration(double seconds) {
     if (seconds < 60) {
-        return fmt::format("{:.1f} s", seconds);
+        return text_of("%.1f s", seconds);
     }
     const int whole = static_cast<int>(seconds + 0.5);
-    return whole < 3600 ? fmt::format("{}:{:02}", whole / 60, whole % 60)
-                        : fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+    return whole < 3600 ? text_of("%d:%02d", whole / 60, whole % 60)
+                        : text_of("%d:%02d:%02d", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
 } // namespace
@@ -34,7 +39,7 @@ ProgressLine::ProgressLine(std::string what, ProgressMode mode)
 
 ProgressLine::~ProgressLine() {
     if (shown_ && terminal_) {
-        fmt::print(stderr, "\r\033[K");
+        std::fputs("\r\033[K", stderr);
     }
 }
 
@@ -46,11 +51,11 @@ void ProgressLine::update(double done) {
     }
     last_tenth_ = tenth;
     shown_ = true;
-    std::string line = fmt::format("{} {:3.0f} %, {} gone", what_, 100 * done, duration(gone));
+    std::string line = what_ + text_of(" %3.0f %%, ", 100 * done) + duration(gone) + " gone";
     if (done > 0 && done < 1) {
-        line += fmt::format(", about {} left", duration(gone * (1 - done) / done));
+        line += ", about " + duration(gone * (1 - done) / done) + " left";
     }
-    fmt::print(stderr, "{}{}{}", terminal_ ? "\r" : "", line, terminal_ ? "\033[K" : "\n");
+    std::fputs(((terminal_ ? "\r" : "") + line + (terminal_ ? "\033[K" : "\n")).c_str(), stderr);
     std::fflush(stderr);
 }
 

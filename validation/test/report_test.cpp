@@ -1,4 +1,4 @@
-#include "runtime/host/image_file.h"
+#include "runtime/host/read_image.h"
 #include "validation/embed.h"
 #include "validation/report.h"
 #include "validation/scratch.h"

@@ -1,4 +1,5 @@
 #include "runtime/host/image_file.h"
+#include "runtime/host/read_image.h"
 
 #include <gtest/gtest.h>
 
