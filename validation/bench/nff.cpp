@@ -207,10 +207,10 @@ void write_tachyon(const NffScene& scene, int bounces, const std::filesystem::pa
     }
     for (std::size_t i = 0; i < scene.fills.size(); ++i) {
         const NffFill& fill = scene.fills[i];
-        file << fmt::format("TexDef fill{} Ambient 0 Diffuse {} Specular {} Opacity {} Phong Plastic {} "
+        file << fmt::format("TexDef fill{} Ambient {} Diffuse {} Specular {} Opacity {} Phong Plastic {} "
                             "Phong_size {} Color {} TexFunc 0\n",
-                            i, fill.diffuse, fill.specular, 1 - fill.transmission, fill.specular,
-                            std::max(fill.shine, 1.0), text(fill.color));
+                            i, 0.1 * fill.diffuse, fill.diffuse, fill.specular, 1 - fill.transmission,
+                            fill.specular, std::max(fill.shine, 1.0), text(fill.color));
     }
     for (const NffSphere& s : scene.spheres) {
         file << fmt::format("Sphere Center {} Rad {:.9g} fill{}\n", mirrored(s.center), s.radius, s.fill);

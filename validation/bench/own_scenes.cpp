@@ -24,7 +24,6 @@ NffScene scene_seen_from(const Vec& from, const Vec& at) {
     scene.from = from;
     scene.at = at;
     scene.up = {0, 0, 1};
-    scene.width = scene.height = 1024;
     return scene;
 }
 
@@ -54,7 +53,7 @@ NffScene cones_and_spheres() {
     scene.fills = {{{0.6, 0.55, 0.45}, 0.9, 0, 1, 0, 1},
                    {{0.3, 0.7, 0.3}, 0.8, 0, 1, 0, 1},
                    {{0.9, 0.8, 0.7}, 0.4, 0.5, 40, 0, 1}};
-    add_ground(scene, 2000, 0);
+    add_ground(scene, 60, 0); // wider, Tachyon's grid needs minutes
     constexpr int side = 50;
     constexpr double step = 0.5;
     Random random;

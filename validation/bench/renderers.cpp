@@ -14,7 +14,7 @@ namespace {
 using validation::Command;
 using validation::ProcessResult;
 
-constexpr double timeout_seconds = 600;
+constexpr double timeout_seconds = 120;
 
 Command command_for(const std::string& program, const PictureJob& job) {
     Command command;
@@ -70,7 +70,7 @@ Drawing draw_with_povray(const std::filesystem::path& scene, const PictureJob& j
     Command command = command_for("povray", job);
     // -V: the progress line is not part of the work.
     command.arguments = {"+I" + scene.string(),
-                         "+Opovray.png",
+                         "+Opovray_" + job.image,
                          fmt::format("+W{}", job.width),
                          fmt::format("+H{}", job.height),
                          fmt::format("+WT{}", job.threads),
@@ -94,8 +94,10 @@ Drawing draw_with_povray(const std::filesystem::path& scene, const PictureJob& j
 
 Drawing draw_with_tachyon(const std::filesystem::path& scene, const PictureJob& job) {
     Command command = command_for("tachyon", job);
-    command.arguments = {scene.string(), "-numthreads", std::to_string(job.threads), "-format", "PNG",
-                         "-o",           "tachyon.png"};
+    // Shading normals on the viewer's side, as here.
+    command.arguments = {scene.string(), "-numthreads", std::to_string(job.threads),
+                         "-normalfixup", "flip",        "-format",
+                         "PNG",          "-o",          "tachyon_" + job.image};
     const ProcessResult process = run(command);
     Drawing drawing;
     drawing.wall = process.wall_seconds;

@@ -23,7 +23,7 @@ struct PictureJob {
     int threads = 1;
     int width = 0, height = 0;            ///< for POV-Ray, whose scenes do not say
     std::vector<std::string> arguments{}; ///< further ones, for ours
-    std::string image = "picture.png";
+    std::string image = "picture.png";    ///< of ours; the peers put their names before it
 };
 
 /// `scc render SCENE`.

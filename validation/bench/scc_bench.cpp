@@ -143,9 +143,11 @@ private:
         if (seconds != nullptr) {
             *seconds = process.wall_seconds;
         }
-        return process.ok()
-                   ? std::string()
-                   : fmt::format("`scc {}`: {}", command.arguments.front(), describe(process, command));
+        if (process.ok()) {
+            return {};
+        }
+        return fmt::format("`scc {}`: {}: {}", command.arguments.front(), describe(process, command),
+                           process.err.substr(0, process.err.find('\n')));
     }
 
     /// Everything that drawing it needs besides the scene itself and Tachyon's.
@@ -164,7 +166,11 @@ private:
     // --- runs ---
 
     std::map<std::string, Runs> draw_all(const Scene& scene, int threads) {
-        PictureJob job{.folder = work_, .threads = threads, .width = scene.width, .height = scene.height};
+        PictureJob job{.folder = work_,
+                       .threads = threads,
+                       .width = scene.width,
+                       .height = scene.height,
+                       .image = scene.pov.stem().string() + ".png"};
         const auto failed = [](const std::string& why) {
             Drawing drawing;
             drawing.failure = why;
@@ -376,9 +382,9 @@ private:
                     for (const char* peer : {povray_name, tachyon_name}) {
                         Row row = compare(runs, ours, peer, &Runs::trace);
                         row.facts["build_seconds"] = scene.build_seconds;
-                        result.ratios.push_back(row.reached);
-                        result.skipped +=
-                            row.skipped.empty() ? "" : fmt::format("{}: {}; ", name, row.skipped);
+                        if (row.skipped.empty()) {
+                            result.ratios.push_back(row.reached);
+                        }
                         add(std::move(row), fmt::format("NFF scenes, {}", ours),
                             fmt::format("{}, {}", name, peer), threads);
                     }
@@ -419,39 +425,35 @@ private:
 
     struct SpdResult {
         std::string scene;
-        std::vector<Series> ratios; ///< to each peer
-        std::string skipped;
+        std::vector<Series> ratios; ///< to the peers that drew it
     };
 
+    /// Over what was measured, which the details count.
     void summarise_spd(const std::vector<SpdResult>& results, const char* ours, int threads) {
         Row mean, worst;
+        mean.skipped = worst.skipped = "nothing was measured";
         std::string worst_scene;
+        std::vector<double> logarithms(static_cast<std::size_t>(options_.repeat));
+        std::size_t measured = 0, wanted = 0;
         for (const SpdResult& result : results) {
-            mean.skipped += result.skipped;
-        }
-        worst.skipped = mean.skipped;
-        if (mean.skipped.empty()) {
-            for (std::size_t i = 0; i < static_cast<std::size_t>(options_.repeat); ++i) {
-                double logarithms = 0, count = 0;
-                for (const SpdResult& result : results) {
-                    for (const Series& one : result.ratios) {
-                        logarithms += std::log(one.values[i]);
-                        ++count;
-                    }
+            wanted += 2;
+            for (const Series& one : result.ratios) {
+                ++measured;
+                for (std::size_t i = 0; i < one.values.size(); ++i) {
+                    logarithms[i] += std::log(one.values[i]);
                 }
-                mean.reached.add(std::exp(logarithms / count));
-            }
-            for (const SpdResult& result : results) {
-                for (const Series& one : result.ratios) {
-                    if (worst_scene.empty() || one.median() < worst.reached.median()) {
-                        worst_scene = result.scene;
-                        worst.reached = one;
-                    }
+                if (worst_scene.empty() || one.median() < worst.reached.median()) {
+                    worst_scene = result.scene;
+                    worst.reached = one;
                 }
             }
         }
-        add(std::move(mean), fmt::format("NFF scenes, {}, geometric mean", ours), "POV-Ray and Tachyon",
-            threads, Target{8, 12});
+        for (std::size_t i = 0; measured > 0 && i < logarithms.size(); ++i) {
+            mean.reached.add(std::exp(logarithms[i] / static_cast<double>(measured)));
+        }
+        add(std::move(mean), fmt::format("NFF scenes, {}, geometric mean", ours),
+            fmt::format("{} of {} comparisons with POV-Ray and Tachyon", measured, wanted), threads,
+            Target{8, 12});
         add(std::move(worst), fmt::format("NFF scenes, {}, worst against the faster peer", ours), worst_scene,
             threads, Target{3, 5});
     }
