@@ -18,6 +18,12 @@ struct Drawing {
     std::string failure;  ///< in words; empty: none
 };
 
+inline Drawing failed(const std::string& why) {
+    Drawing drawing;
+    drawing.failure = why;
+    return drawing;
+}
+
 struct PictureJob {
     std::filesystem::path folder; ///< an existing one, for all files
     int threads = 1;

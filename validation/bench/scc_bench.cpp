@@ -1,7 +1,6 @@
+#include "validation/bench/contest.h"
 #include "validation/bench/nff.h"
 #include "validation/bench/own_scenes.h"
-#include "validation/bench/renderers.h"
-#include "validation/bench/report.h"
 #include "validation/subprocess.h"
 
 #include <CLI/CLI.hpp>
@@ -9,7 +8,6 @@
 
 #include <cmath>
 #include <fstream>
-#include <functional>
 #include <iostream>
 #include <iterator>
 #include <map>
@@ -40,41 +38,6 @@ struct Options {
     }
 };
 
-/// What a contestant's runs have shown; with a failure nothing.
-struct Runs {
-    Series trace, wall;
-    json stats;
-    std::string version;
-    std::string failure;
-};
-
-struct Contestant {
-    std::string name;
-    std::function<Drawing()> draw;
-};
-
-/// In turns, after a first round that does not count. Who fails drops out.
-std::map<std::string, Runs> alternate(const std::vector<Contestant>& contestants, int repeat) {
-    std::map<std::string, Runs> result;
-    for (int i = 0; i <= repeat; ++i) {
-        for (const auto& [name, draw] : contestants) {
-            Runs& runs = result[name];
-            if (!runs.failure.empty()) {
-                continue;
-            }
-            Drawing drawing = draw();
-            runs.failure = drawing.failure;
-            runs.stats = std::move(drawing.stats);
-            runs.version = std::move(drawing.version);
-            if (i > 0) {
-                runs.trace.add(drawing.trace);
-                runs.wall.add(drawing.wall);
-            }
-        }
-    }
-    return result;
-}
-
 /// The contestants of the comparisons between whole renderers.
 constexpr const char* program_name = "built program";
 constexpr const char* render_name = "scc render";
@@ -83,6 +46,7 @@ constexpr const char* tachyon_name = "Tachyon";
 
 struct Scene {
     fs::path scn, pov, tachyon, program;
+    std::string missing;         ///< why it cannot be drawn at all
     std::string program_missing; ///< why there is no program
     std::string pov_missing;     ///< why there is no scene for POV-Ray
     double build_seconds = 0;
@@ -171,27 +135,24 @@ private:
                        .width = scene.width,
                        .height = scene.height,
                        .image = scene.pov.stem().string() + ".png"};
-        const auto failed = [](const std::string& why) {
-            Drawing drawing;
-            drawing.failure = why;
-            return drawing;
+        const auto unless = [](std::initializer_list<std::string> failures, std::function<Drawing()> draw) {
+            const auto* failure = std::find_if(failures.begin(), failures.end(),
+                                               [](const std::string& f) { return !f.empty(); });
+            return failure == failures.end() ? std::move(draw) : [why = *failure] { return failed(why); };
         };
-        const auto or_failure = [&](const std::string& why, std::function<Drawing()> draw) {
-            return why.empty() ? std::move(draw) : [=] { return failed(why); };
-        };
-        const auto installed = [](const char* name, const char* program) {
+        const auto not_installed = [](const char* name, const char* program) {
             return validation::find_program(program) ? std::string()
                                                      : fmt::format("{} is not installed", name);
         };
-        const std::string povray_missing = installed(povray_name, "povray");
         std::map<std::string, Runs> runs = alternate(
-            {{program_name,
-              or_failure(scene.program_missing, [&] { return draw_with_program(scene.program, job); })},
-             {render_name, [&] { return draw_with_scc(fs::absolute(options_.scc), scene.scn, job); }},
-             {povray_name, or_failure(povray_missing.empty() ? scene.pov_missing : povray_missing,
-                                      [&] { return draw_with_povray(scene.pov, job); })},
-             {tachyon_name, or_failure(installed(tachyon_name, "tachyon"),
-                                       [&] { return draw_with_tachyon(scene.tachyon, job); })}},
+            {{program_name, unless({scene.missing, scene.program_missing},
+                                   [&] { return draw_with_program(scene.program, job); })},
+             {render_name, unless({scene.missing},
+                                  [&] { return draw_with_scc(fs::absolute(options_.scc), scene.scn, job); })},
+             {povray_name, unless({not_installed(povray_name, "povray"), scene.missing, scene.pov_missing},
+                                  [&] { return draw_with_povray(scene.pov, job); })},
+             {tachyon_name, unless({not_installed(tachyon_name, "tachyon"), scene.missing},
+                                   [&] { return draw_with_tachyon(scene.tachyon, job); })}},
             options_.repeat);
         for (const auto& [name, one] : runs) {
             if (!one.version.empty()) {
@@ -199,25 +160,6 @@ private:
             }
         }
         return runs;
-    }
-
-    /// The row of `peer` over `ours` by the times that `series` selects.
-    Row compare(const std::map<std::string, Runs>& runs, const char* ours, const char* peer,
-                Series Runs::*series) {
-        const Runs &a = runs.at(ours), &b = runs.at(peer);
-        Row row;
-        row.skipped = a.failure.empty() ? b.failure : a.failure;
-        if (row.skipped.empty()) {
-            row.reached = ratio(b.*series, a.*series);
-            row.detail = fmt::format("{:.4g} ms against {:.4g} ms", 1e3 * (a.*series).median(),
-                                     1e3 * (b.*series).median());
-            row.facts = {{"ours_seconds", (a.*series).json()},
-                         {"theirs_seconds", (b.*series).json()},
-                         {"precision", a.stats.value("precision", "")},
-                         {"isa", a.stats.value("isa", "")},
-                         {"rays", a.stats.value("rays", json::object())}};
-        }
-        return row;
     }
 
     void add(Row row, std::string line, std::string detail, int threads, std::optional<Target> target = {}) {
@@ -260,7 +202,10 @@ private:
             const auto* line = std::find_if(std::begin(kernel_lines), std::end(kernel_lines),
                                             [&](const KernelLine& l) { return figure.at("row") == l.row; });
             Row row;
-            row.reached = series_of(figure.at("ratio"));
+            row.skipped = disagreement(figure);
+            if (row.skipped.empty()) {
+                row.reached = series_of(figure.at("ratio"));
+            }
             row.facts = figure;
             const int threads = figure.at("threads");
             const std::string mesh = fmt::format("{}, {} triangles", figure.at("mesh").get<std::string>(),
@@ -280,6 +225,19 @@ private:
                     threads, Target{80, 67, true, "B"});
             }
         }
+    }
+
+    /// A few rays graze an edge; more of them mean that something else was measured than intended.
+    static std::string disagreement(const json& figure) {
+        if (!figure.contains("check")) {
+            return {};
+        }
+        const json& check = figure.at("check");
+        const double rays = check.at("rays");
+        const double differing =
+            check.at("hit_differs").get<double>() + check.at("distance_differs").get<double>();
+        return differing * 5000 > rays ? fmt::format("{} of {} rays hit something else", differing, rays)
+                                       : "";
     }
 
     /// Median, smallest and largest again as a series.
@@ -401,12 +359,11 @@ private:
         const fs::path scn = work_ / (name + ".scn");
         const std::string failure = run_scc({"import", "nff", file.string(), "-o", scn.string()});
         Scene scene;
-        if (failure.empty()) {
-            scene = prepare(name, scn);
-        } else {
-            scene.scn = scn;
-            scene.program_missing = scene.pov_missing = failure;
+        if (!failure.empty()) {
+            scene.missing = failure;
+            return scene;
         }
+        scene = prepare(name, scn);
         scene.tachyon = work_ / (name + ".dat");
         scene.width = nff.width;
         scene.height = nff.height;
