@@ -183,18 +183,23 @@ private:
         {"incoherent", "incoherent rays, against the best of Embree", {0.8, 1.2}},
         {"build", "BVH build, against Embree medium", {1.0, 1.5}},
     };
+    static constexpr const char* bytes_line = "bytes per triangle, all in";
+    static constexpr Target bytes_target{80, 67, true, "B"};
+
+    static Row skipped(const std::string& why) {
+        Row row;
+        row.skipped = why;
+        return row;
+    }
 
     void kernels() {
         json figures;
         const std::string failure = run_kernel_bench(figures);
-        for (const KernelLine& line : kernel_lines) {
-            if (!failure.empty()) {
-                Row row;
-                row.skipped = failure;
-                add(std::move(row), line.line, "", 1, line.target);
-            }
-        }
         if (!failure.empty()) {
+            for (const KernelLine& line : kernel_lines) {
+                add(skipped(failure), line.line, "", 1, line.target);
+            }
+            add(skipped(failure), bytes_line, "", 1, bytes_target);
             return;
         }
         versions_.insert("Embree " + figures.at("embree").get<std::string>());
@@ -217,12 +222,12 @@ private:
                 Row bytes;
                 bytes.reached.add(figure.at("bytes_per_triangle").at("ours"));
                 bytes.facts = figure.at("bytes_per_triangle");
-                add(std::move(bytes), "bytes per triangle, all in",
+                add(std::move(bytes), bytes_line,
                     fmt::format(
                         "{}; Embree {:.0f}, with its buffers {:.0f}", mesh,
                         figure.at("bytes_per_triangle").at("medium").at("own").get<double>(),
                         figure.at("bytes_per_triangle").at("medium").at("with_buffers").get<double>()),
-                    threads, Target{80, 67, true, "B"});
+                    threads, bytes_target);
             }
         }
     }
@@ -248,7 +253,7 @@ private:
 
     std::string run_kernel_bench(json& figures) {
         if (!fs::exists(options_.kernel_bench)) {
-            return "scc_kernel_bench was not built, since Embree is not installed";
+            return "scc_kernel_bench is missing: it is built where Embree is installed";
         }
         std::string threads;
         for (const int n : options_.threads) {
@@ -301,6 +306,9 @@ private:
         const fs::path scc = fs::absolute(options_.scc);
         for (const bool compiled : {true, false}) {
             const auto draw = [&](const PictureJob& job) {
+                if (compiled && !scene.program_missing.empty()) {
+                    return failed(scene.program_missing);
+                }
                 return compiled ? draw_with_program(scene.program, job) : draw_with_scc(scc, scene.scn, job);
             };
             const auto runs = alternate({{"1", [&] { return draw(one); }}, {"9", [&] { return draw(nine); }}},
