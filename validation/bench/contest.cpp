@@ -39,6 +39,7 @@ Row compare(const std::map<std::string, Runs>& runs, const char* ours, const cha
         fmt::format("{:.4g} ms against {:.4g} ms", 1e3 * our_times.median(), 1e3 * their_times.median());
     row.facts = {{"ours_seconds", our_times.json()},
                  {"theirs_seconds", their_times.json()},
+                 {"ratio_of_fastest", their_times.min() / our_times.min()},
                  {"precision", a.stats.value("precision", "")},
                  {"isa", a.stats.value("isa", "")},
                  {"rays", a.stats.value("rays", nlohmann::json::object())}};
