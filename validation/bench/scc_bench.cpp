@@ -107,11 +107,15 @@ private:
         if (seconds != nullptr) {
             *seconds = process.wall_seconds;
         }
-        if (process.ok()) {
-            return {};
-        }
-        return fmt::format("`scc {}`: {}: {}", command.arguments.front(), describe(process, command),
-                           process.err.substr(0, process.err.find('\n')));
+        return process.ok()
+                   ? std::string()
+                   : fmt::format("`scc {}`: {}", command.arguments.front(), failure_of(process, command));
+    }
+
+    /// How it ended and the first line of what it said.
+    static std::string failure_of(const validation::ProcessResult& process,
+                                  const validation::Command& command) {
+        return describe(process, command) + ": " + process.err.substr(0, process.err.find('\n'));
     }
 
     /// Everything that drawing it needs besides the scene itself and Tachyon's.
@@ -266,7 +270,7 @@ private:
                              "--meshes", (options_.data / "mesh").string(), "--json",    file.string()};
         const validation::ProcessResult process = validation::run(command);
         if (!process.ok()) {
-            return describe(process, command);
+            return failure_of(process, command);
         }
         std::ifstream stream(file);
         figures = json::parse(stream);
@@ -363,10 +367,14 @@ private:
     }
 
     Scene prepare_nff(const std::string& name, const fs::path& file) {
+        Scene scene;
+        if (!fs::exists(file)) {
+            scene.missing = fmt::format("`{}` is missing; see --data", file.filename().string());
+            return scene;
+        }
         const NffScene nff = read_nff(file);
         const fs::path scn = work_ / (name + ".scn");
         const std::string failure = run_scc({"import", "nff", file.string(), "-o", scn.string()});
-        Scene scene;
         if (!failure.empty()) {
             scene.missing = failure;
             return scene;
