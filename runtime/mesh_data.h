@@ -3,6 +3,7 @@
 #include "runtime/accel/bvh_node.h"
 #include "runtime/math/vec.h"
 
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -26,8 +27,8 @@ struct MeshData {
     std::uint32_t node_count = 0;
     std::uint32_t triangle_count = 0;
     std::uint32_t normal_count = 0;
-    float min[3] = {0, 0, 0}; ///< of all triangles, if there are any
-    float max[3] = {0, 0, 0};
+    std::array<float, 3> min{}; ///< of all triangles, if there are any
+    std::array<float, 3> max{};
 };
 
 inline constexpr std::size_t words_per_triangle = 10;
@@ -68,8 +69,8 @@ struct MeshStorage {
     std::vector<float> triangles;
     std::vector<float> normals;
     std::vector<std::uint32_t> normal_indices;
-    float min[3] = {0, 0, 0};
-    float max[3] = {0, 0, 0};
+    std::array<float, 3> min{};
+    std::array<float, 3> max{};
 
     MeshData data() const {
         const bool smooth = !normals.empty();
@@ -80,8 +81,8 @@ struct MeshStorage {
                 static_cast<std::uint32_t>(nodes.size()),
                 triangles_in(triangles.size()),
                 static_cast<std::uint32_t>(normals.size() / 3),
-                {min[0], min[1], min[2]},
-                {max[0], max[1], max[2]}};
+                min,
+                max};
     }
 };
 

@@ -100,10 +100,8 @@ inline MeshStorage build_mesh(const std::vector<float>& positions, const std::ve
                            }
                        });
     const Bounds<float> box = detail::root_bounds(bvh.nodes);
-    for (int axis = 0; axis < 3; ++axis) {
-        mesh.min[axis] = detail::component(box.min, axis);
-        mesh.max[axis] = detail::component(box.max, axis);
-    }
+    mesh.min = {box.min.x, box.min.y, box.min.z};
+    mesh.max = {box.max.x, box.max.y, box.max.z};
     mesh.nodes = std::move(bvh.nodes);
     return mesh;
 }

@@ -254,8 +254,8 @@ TYPED_TEST(Hierarchy, FindsWhatATestOfEveryTriangleFinds) {
     for (BvhNode& node : flat.nodes) {
         for (int slot = 0; slot < bvh_width; ++slot) {
             for (int axis = 0; is_used(node, slot) && axis < 3; ++axis) {
-                node.min[axis][slot] = mesh.min[axis];
-                node.max[axis][slot] = mesh.max[axis];
+                node.min[axis][slot] = mesh.min[static_cast<std::size_t>(axis)];
+                node.max[axis][slot] = mesh.max[static_cast<std::size_t>(axis)];
             }
         }
     }
