@@ -144,8 +144,9 @@ struct SceneBase {
 
 /// What the kernels are compiled for. Its traits say what it contains; what they deny is not looked at.
 ///
-/// A compiled scene is a type with tables of constant size and nothing of its own but the per-point functions.
-/// Their content is constant, or what the program read at its start (`static inline`, without an initialiser):
+/// A compiled scene is a type with tables of constant size and nothing of its own but the per-point
+/// functions. Their content is constant, or what the program read at its start (`static inline`, without an
+/// initialiser):
 ///
 ///     struct Scene : SceneBase<double> {
 ///         using R = double;
