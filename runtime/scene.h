@@ -146,20 +146,22 @@ struct SceneBase {
 
 /// What the kernels are compiled for. Its traits say what it contains; what they deny is not looked at.
 ///
-/// A compiled scene is a type with its data as constants and nothing of its own but the per-point functions:
+/// A compiled scene is a type with tables of constant size and nothing of its own but the per-point
+/// functions. Their content is constant, or what the program read at its start (`static inline`, without an
+/// initialiser):
 ///
 ///     struct Scene : SceneBase<double> {
 ///         using R = double;
 ///         static constexpr SceneTraits traits{.bare_shapes = 1U << 2, .point_lights = true, ...};
 ///         using SceneBase<R>::primitives;
 ///         static constexpr std::array<Bare<Plane<R>>, 1> bare_plane{{{{.normal = {0, 1, 0}}, {.id = 0}}}};
-///         static constexpr const auto& primitives(Of<Bare<Plane<R>>>) { return bare_plane; }
+///         const auto& primitives(Of<Bare<Plane<R>>>) const { return bare_plane; }
 ///         static constexpr std::array<Phong<R>, 1> materials{{...}};
 ///         static constexpr std::array<PointLight<R>, 1> point_lights{{...}};
 ///         static constexpr Camera<R> camera{...};
 ///         static constexpr Rgb<R> ambient{...}, background{...};
 ///         template <class L>
-///         static Rgb<L> color_function(std::int32_t index, const SurfacePoint<L>& s) {
+///         Rgb<L> color_function(std::int32_t index, const SurfacePoint<L>& s) const {
 ///             switch (index) {
 ///             case 0: {
 ///                 const L v0 = s.p.x;
@@ -169,11 +171,11 @@ struct SceneBase {
 ///             default: return {};
 ///             }
 ///         }
-///         std::vector<MeshData> meshes;    // only with meshes: filled in main() before rendering
+///         static inline std::vector<MeshData> meshes; // only with meshes: read before rendering
 ///         Accelerator accelerator;         // only with traits.accelerator: filled by prepare(scene)
 ///     };
 ///
-/// Tables that are absent are left out; tables too large for constants may be std::vector members. Every
+/// Tables that are absent are left out; tables too large to unroll are std::span members. Every
 /// table is in source order (Tag::id ascending), as the generic scene has it; both then draw the same bits.
 template <class S>
 concept SceneModel = requires(const S& s, const SurfacePoint<typename S::Real>& point) {

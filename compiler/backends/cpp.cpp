@@ -151,7 +151,7 @@ class Emitter {
 public:
     Emitter(const ir::Scene& scene, Precision precision, Numbers numbers, const std::string& values_name)
         : scene_(scene), precision_(precision), in_code_(numbers == Numbers::in_code),
-          values_name_(values_name) {}
+          any_scene_(numbers == Numbers::of_any_scene), values_name_(values_name) {}
 
     CppProgram emit();
 
@@ -174,6 +174,7 @@ private:
     const ir::Scene& scene_;
     Precision precision_;
     bool in_code_;
+    bool any_scene_;
     std::string values_name_;
     host::ValuesWriter values_;
     std::vector<std::string> reads_; // statements of `load`, in the order of the values
@@ -201,10 +202,10 @@ void Emitter<R>::member(const std::string& type, const std::string& name, const 
 template <class R>
 template <class T>
 void Emitter<R>::table(const std::string& row_type, const std::string& name, const std::vector<T>& rows) {
-    const std::string type = rows.size() > most_constant_rows
-                                 ? fmt::format("std::span<const {}>", row_type)
-                                 : fmt::format("std::array<{}, {}>", row_type, rows.size());
-    if (!in_code_ || rows.size() > most_constant_rows) {
+    const bool constant_size = !any_scene_ && rows.size() <= most_constant_rows;
+    const std::string type = !constant_size ? fmt::format("std::span<const {}>", row_type)
+                                            : fmt::format("std::array<{}, {}>", row_type, rows.size());
+    if (!in_code_ || !constant_size) {
         out_.line("static inline {} {};", type, name);
         values_.add(std::span<const T>(rows));
         read_member(name);
@@ -221,6 +222,10 @@ void Emitter<R>::table(const std::string& row_type, const std::string& name, con
 
 template <class R>
 void Emitter<R>::traits() {
+    if (any_scene_) {
+        out_.raw_line("static constexpr SceneTraits traits = everything;");
+        return;
+    }
     const runtime::SceneTraits& t = scene_.traits;
     std::string flags;
     for (const ir::TraitFlag& flag : ir::trait_flags) {
@@ -238,7 +243,7 @@ void Emitter<R>::primitives() {
     });
     out_.raw_line("using SceneBase<R>::primitives;");
     const auto emit_table = [&]<class Primitive>(const std::vector<Primitive>& rows) {
-        if (rows.empty()) {
+        if (rows.empty() && !any_scene_) {
             return;
         }
         const Primitive* tag = nullptr;
@@ -313,10 +318,10 @@ void Emitter<R>::scene_type() {
     traits();
     primitives();
     table("Phong<R>", "materials", materials_of<R>(scene_));
-    if (scene_.traits.point_lights) {
+    if (scene_.traits.point_lights || any_scene_) {
         table("PointLight<R>", "point_lights", lights_of<runtime::PointLight, R>(scene_));
     }
-    if (scene_.traits.directional_lights) {
+    if (scene_.traits.directional_lights || any_scene_) {
         table("DirectionalLight<R>", "directional_lights", lights_of<runtime::DirectionalLight, R>(scene_));
     }
     member("Camera<R>", "camera", convert(scene_.camera, R{}));
@@ -330,7 +335,7 @@ void Emitter<R>::scene_type() {
         read_member("function_constants");
     }
     meshes();
-    if (scene_.traits.accelerator) {
+    if (scene_.traits.accelerator || any_scene_) {
         out_.raw_line("Accelerator accelerator;");
     }
     out_.dedent();
@@ -339,7 +344,7 @@ void Emitter<R>::scene_type() {
 
 template <class R>
 void Emitter<R>::meshes() {
-    if (scene_.meshes.empty()) {
+    if (scene_.meshes.empty() && !any_scene_) {
         return;
     }
     std::vector<runtime::MeshStorage> built;
@@ -350,7 +355,7 @@ void Emitter<R>::meshes() {
     for (const runtime::MeshStorage& mesh : built) {
         data.push_back(mesh.data());
     }
-    out_.raw_line("std::vector<MeshData> meshes;");
+    out_.raw_line("static inline std::vector<MeshData> meshes;");
     values_.add(data);
     read_member("meshes");
 }

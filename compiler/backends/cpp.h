@@ -16,8 +16,11 @@ inline constexpr auto program_headers =
 
 /// Where a generated program has its scene's numbers.
 enum class Numbers {
-    in_code,  ///< small tables as constants, to be read and compiled by a person
-    as_values ///< all in CppProgram::values; the source depends on the scene's structure alone
+    in_code,   ///< small tables as constants, to be read and compiled by a person
+    as_values, ///< all in CppProgram::values; the source depends on the scene's structure alone
+    /// As values, and with tables of every kind and any length: code that leaves nothing out, to compare
+    /// with.
+    of_any_scene
 };
 
 /// A program that draws one scene: data and one type over the runtime's headers.

@@ -119,12 +119,11 @@ void measure_times(Facts& facts, const host::Drawable& drawable, const fs::path&
     facts.program_ns = median(built);
 }
 
-/// The same scene's program, told that nothing may be left out.
+/// A program whose code could draw any scene (but for functions, which are this scene's).
 Executable everything_program(const Loaded& loaded, compiler::Precision precision,
                               const NativeOptions& options, const fs::path& folder) {
-    compiler::ir::Scene scene = loaded.scene;
-    scene.traits = runtime::everything;
-    compile_native(emit_cpp(scene, precision, compiler::Numbers::as_values), options, folder / "everything");
+    compile_native(emit_cpp(loaded.scene, precision, compiler::Numbers::of_any_scene), options,
+                   folder / "everything");
     return inspect_executable((folder / "everything").string());
 }
 

@@ -1,7 +1,6 @@
 #include "runtime/accel/build.h"
 #include "runtime/host/program.h"
 #include "runtime/render.h"
-
 #include <array>
 #include <cstdint>
 #include <span>
@@ -18,15 +17,15 @@ struct Scene : SceneBase<double> {
     static constexpr std::array<Placed<Sphere<R>, R>, 1> placed_sphere{{
         {{{0.0, 0.0, 0.0}, 1.0}, {{{1.0, 0.0, 0.0, 0.0}, {0.0, 0.7, 0.0, 0.7}, {0.0, 0.0, 1.0, 0.0}}}, {{{1.0, 0.0, 0.0, 0.0}, {0.0, 1.4285714285714286, 0.0, -1.0}, {0.0, 0.0, 1.0, 0.0}}}, {0, {0, 0}}},
     }};
-    static constexpr const auto& primitives(Of<Placed<Sphere<R>, R>>) { return placed_sphere; }
+    const auto& primitives(Of<Placed<Sphere<R>, R>>) const { return placed_sphere; }
     static constexpr std::array<Bare<Plane<R>>, 1> bare_plane{{
         {{{0.0, 1.0, 0.0}, 0.0}, {2, {3, 3}}},
     }};
-    static constexpr const auto& primitives(Of<Bare<Plane<R>>>) { return bare_plane; }
+    const auto& primitives(Of<Bare<Plane<R>>>) const { return bare_plane; }
     static constexpr std::array<Bare<Cylinder<R>>, 1> bare_cylinder{{
         {{{2.0, 0.0, 0.0}, {2.0, 1.6, 0.0}, 0.4, false}, {1, {1, 2}}},
     }};
-    static constexpr const auto& primitives(Of<Bare<Cylinder<R>>>) { return bare_cylinder; }
+    const auto& primitives(Of<Bare<Cylinder<R>>>) const { return bare_cylinder; }
     static constexpr std::array<Phong<R>, 4> materials{{
         {{{0.2, 0.02, 0.02}, -1}, {{0.7, 0.1, 0.1}, -1}, {{0.6, 0.6, 0.6}, -1}, {{0.0, 0.0, 0.0}, -1}, {{0.0, 0.0, 0.0}, -1}, {40.0, -1}},
         {{{0.05, 0.05, 0.05}, -1}, {{0.05, 0.05, 0.05}, -1}, {{0.0, 0.0, 0.0}, -1}, {{0.0, 0.0, 0.0}, -1}, {{0.8, 0.8, 0.8}, -1}, {32.0, -1}},
@@ -43,7 +42,7 @@ struct Scene : SceneBase<double> {
     static constexpr Rgb<R> ambient{0.2, 0.2, 0.2};
     static constexpr Rgb<R> background{0.014443843596092545, 0.021219010376003555, 0.0295568344378088};
     template <class L>
-    static Rgb<L> color_function(std::int32_t index, const SurfacePoint<L>& s) {
+    Rgb<L> color_function(std::int32_t index, const SurfacePoint<L>& s) const {
         switch (index) {
         case 0: { // checker
             const L v0 = s.p.x;
@@ -65,9 +64,13 @@ struct Scene : SceneBase<double> {
     }
 };
 
-RenderResult draw(const RenderRequest& request, Image& image) {
-    Scene scene;
+Scene scene;
+
+void load([[maybe_unused]] scc::host::Values& values) {
     prepare(scene);
+}
+
+RenderResult draw(const RenderRequest& request, Image& image) {
     return render(scene, request, image);
 }
 
@@ -75,5 +78,5 @@ RenderResult draw(const RenderRequest& request, Image& image) {
 
 int main(int argc, char** argv) {
     static constexpr const char* features[] = {"plane", "cylinder", "sphere (transformed)", "point_lights", "directional_lights", "attenuation", "specular", "reflection", "two_sided", "functions", "shadows", "perspective", nullptr};
-    return scc::host::run_program({"lecture", "double", scc::host::compiled_isa, features, {640, 480, 4, 4, true}, draw}, argc, argv);
+    return scc::host::run_program({"double", scc::host::compiled_isa, features, load, draw, "lecture", {640, 480, 4, 4, true}}, argc, argv);
 }

@@ -1,7 +1,6 @@
 #include "runtime/accel/build.h"
 #include "runtime/host/program.h"
 #include "runtime/render.h"
-
 #include <array>
 #include <cstdint>
 #include <span>
@@ -18,15 +17,15 @@ struct Scene : SceneBase<double> {
     static constexpr std::array<Placed<Sphere<R>, R>, 1> placed_sphere{{
         {{{0.0, 0.0, 0.0}, 1.0}, {{{0.8660254037844387, 0.0, 0.49999999999999994, 0.0}, {0.0, 0.5, 0.0, 1.0}, {-0.49999999999999994, 0.0, 0.8660254037844387, 0.0}}}, {{{0.8660254037844387, 0.0, -0.49999999999999994, 0.0}, {0.0, 2.0, 0.0, -2.0}, {0.49999999999999994, 0.0, 0.8660254037844387, 0.0}}}, {0, {0, 0}}},
     }};
-    static constexpr const auto& primitives(Of<Placed<Sphere<R>, R>>) { return placed_sphere; }
+    const auto& primitives(Of<Placed<Sphere<R>, R>>) const { return placed_sphere; }
     static constexpr std::array<Bare<Disc<R>>, 1> bare_disc{{
         {{{0.0, -1.0, 0.0}, {0.0, 1.0, 0.0}, 3.0, 0.5}, {2, {1, 1}}},
     }};
-    static constexpr const auto& primitives(Of<Bare<Disc<R>>>) { return bare_disc; }
+    const auto& primitives(Of<Bare<Disc<R>>>) const { return bare_disc; }
     static constexpr std::array<Bare<Triangle<R>>, 1> bare_triangle{{
         {{{{{0.0, 0.0, 0.0}, {0.8660254037844387, 0.0, -0.49999999999999994}, {0.0, 1.0, 0.0}}}, {{{0.49999999999999994, 0.0, 0.8660254037844387}, {0.3535533905932737, 0.7071067811865475, 0.6123724356957945}, {0.9659258262890682, 0.0, 0.2588190451025208}}}, true}, {1, {1, 1}}},
     }};
-    static constexpr const auto& primitives(Of<Bare<Triangle<R>>>) { return bare_triangle; }
+    const auto& primitives(Of<Bare<Triangle<R>>>) const { return bare_triangle; }
     static constexpr std::array<Phong<R>, 2> materials{{
         {{{0.0, 0.0, 0.0}, 0}, {{0.0, 0.0, 0.0}, 0}, {{0.5, 0.5, 0.5}, -1}, {{0.0, 0.0, 0.0}, -1}, {{0.0, 0.0, 0.0}, -1}, {0.0, 1}},
         {{{0.8, 0.8, 0.8}, -1}, {{0.8, 0.8, 0.8}, -1}, {{0.0, 0.0, 0.0}, -1}, {{0.0, 0.0, 0.0}, -1}, {{0.0, 0.0, 0.0}, -1}, {32.0, -1}},
@@ -38,7 +37,7 @@ struct Scene : SceneBase<double> {
     static constexpr Rgb<R> ambient{0.1, 0.1, 0.1};
     static constexpr Rgb<R> background{0.0, 0.0, 0.0};
     template <class L>
-    static Rgb<L> color_function(std::int32_t index, const SurfacePoint<L>& s) {
+    Rgb<L> color_function(std::int32_t index, const SurfacePoint<L>& s) const {
         switch (index) {
         case 0: { // bands diffuse
             const L v0 = s.p.y;
@@ -68,7 +67,7 @@ struct Scene : SceneBase<double> {
         }
     }
     template <class L>
-    static L number_function(std::int32_t index, const SurfacePoint<L>& s) {
+    L number_function(std::int32_t index, const SurfacePoint<L>& s) const {
         switch (index) {
         case 1: { // bands shininess
             const L v0 = s.world.x;
@@ -82,9 +81,13 @@ struct Scene : SceneBase<double> {
     }
 };
 
-RenderResult draw(const RenderRequest& request, Image& image) {
-    Scene scene;
+Scene scene;
+
+void load([[maybe_unused]] scc::host::Values& values) {
     prepare(scene);
+}
+
+RenderResult draw(const RenderRequest& request, Image& image) {
     return render(scene, request, image);
 }
 
@@ -92,5 +95,5 @@ RenderResult draw(const RenderRequest& request, Image& image) {
 
 int main(int argc, char** argv) {
     static constexpr const char* features[] = {"disc", "triangle", "sphere (transformed)", "point_lights", "attenuation", "separate_specular", "specular", "functions", "smooth_normals", "orthographic", nullptr};
-    return scc::host::run_program({"placed", "double", scc::host::compiled_isa, features, {320, 240, 1, 0, false}, draw}, argc, argv);
+    return scc::host::run_program({"double", scc::host::compiled_isa, features, load, draw, "placed", {320, 240, 1, 0, false}}, argc, argv);
 }
