@@ -31,7 +31,6 @@ std::size_t aligned(std::size_t size) {
 
 std::byte* ValuesWriter::add_table(std::size_t row_size, std::size_t rows) {
     TableHead head{row_size, rows};
-    clear_padding(head);
     const std::size_t start = bytes_.size();
     bytes_.resize(start + sizeof head + aligned(row_size * rows));
     std::memcpy(&bytes_[start], &head, sizeof head);
@@ -46,8 +45,8 @@ void ValuesWriter::add(const std::vector<runtime::MeshData>& meshes) {
         add(std::span(mesh.triangles, runtime::triangle_words(mesh.triangle_count)));
         add(std::span(mesh.normals, std::size_t{3} * mesh.normal_count));
         add(std::span(mesh.normal_indices, normal_indices));
-        add(std::span(mesh.min));
-        add(std::span(mesh.max));
+        add(std::span<const float>(mesh.min));
+        add(std::span<const float>(mesh.max));
     }
 }
 

@@ -23,10 +23,8 @@ public:
     void add(std::span<const T> rows) {
         static_assert(std::is_trivially_copyable_v<T>);
         std::byte* to = add_table(sizeof(T), rows.size());
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            T row = rows[i];
-            clear_padding(row);
-            std::memcpy(to + i * sizeof(T), &row, sizeof(T));
+        if (!rows.empty()) {
+            std::memcpy(to, rows.data(), rows.size_bytes());
         }
     }
     template <class T>
@@ -41,15 +39,6 @@ public:
     std::string take();
 
 private:
-    /// The same scene gives the same bytes.
-    template <class T>
-    static void clear_padding([[maybe_unused]] T& row) {
-#if defined(__has_builtin)
-#if __has_builtin(__builtin_clear_padding)
-        __builtin_clear_padding(&row);
-#endif
-#endif
-    }
     std::byte* add_table(std::size_t row_size, std::size_t rows);
 
     std::string bytes_;
