@@ -31,6 +31,11 @@ Corners<L> corners_at(const MeshData& mesh, const TrianglePlace& place) {
     return {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}, {at(6), at(7), at(8)}};
 }
 
+inline void prefetch_leaf(const MeshData& mesh, const BvhLeaf& leaf) {
+    prefetch_bytes(mesh.triangles + words_per_triangle * leaf.first,
+                   words_per_triangle * leaf.count * sizeof(float));
+}
+
 /// t, moved to where the ray is in the triangle's box if rounding put it outside (a ray along the triangle).
 /// So no box around it begins after the hit, and the hierarchy finds the same hit as a test of every
 /// triangle. The lanes are those of the rays or, for a single ray, of the triangles.
@@ -97,7 +102,7 @@ private:
             return;
         }
         met = edges.pass(met, dir, [&](int i) { return lane(relative, i); });
-        const T t = put_into_box(distance_to_plane(corners, org, dir), corners, slabs_, T(ray_.t_min), met);
+        const T t = put_into_box(distance_to_plane(plane_normal(corners), relative.a, dir), corners, slabs_, T(ray_.t_min), met);
         for (unsigned left = bits(met) & present; left != 0; left &= left - 1) {
             const int i = __builtin_ctz(left);
             keep(lane(t, i), {place.first, place.count, place.which + static_cast<std::uint32_t>(i)});
@@ -146,7 +151,7 @@ public:
     }
 
     void run() {
-        traverse_beams(mesh_.nodes, beams_, [&](unsigned packs, std::uint32_t first, std::uint32_t count) {
+        traverse_beams(mesh_.nodes, beams_, [&](const BvhLeaf& leaf) { prefetch_leaf(mesh_, leaf); }, [&](unsigned packs, std::uint32_t first, std::uint32_t count) {
             if (apex_ == Apex::origin) {
                 test_from_apex(packs, first, count);
             } else if (apex_ == Apex::end) {
@@ -230,27 +235,51 @@ private:
                                const Vec3<L>& dir = rays_[pack].dir;
                                const MaskOf<L> met = edges.pass(
                                    candidates, dir, [&](int) { return relative_to(point_, corners); });
-                               keep(pack, place, corners, distance_to_plane(corners, point_, dir), met);
+                               keep(pack, place, corners,
+                     distance_to_plane(plane_normal(corners), corners.a - point_, dir), met);
                            });
     }
 
-    /// Rays to one point: what they see of the triangles from there tells most that they miss.
+    /// Rays to one point. Most triangles lie on the surface that the rays leave, so that their planes are
+    /// behind the rays' starts; and what is seen of the others from the end tells most rays that they miss.
     void test_to_apex(unsigned packs, std::uint32_t first, std::uint32_t count) {
-        TriangleView<T> seen(relative_to(lanes<T>(point_), corners_at<T>(mesh_, {first, count, 0})));
-        seen.tolerance = loose_tolerance(seen.tolerance, first, count);
-        for_each_candidate(Views(seen, count), packs, first, count,
-                           [&](std::size_t pack, const TrianglePlace& place, const EdgeFunctions<L>&,
-                               const MaskOf<L>&) { test(pack, place); });
+        const Corners<T> corners = corners_at<T>(mesh_, {first, count, 0});
+        TriangleView<T> seen(relative_to(lanes<T>(point_), corners));
+        seen.tolerance = loose_tolerance(corners);
+        const Views views(seen, count);
+        const Vec3<T> normals = plane_normal(corners);
+        R planes[6][bvh_max_leaf];
+        const T* parts[6] = {&normals.x, &normals.y, &normals.z, &corners.a.x, &corners.a.y, &corners.a.z};
+        for (int i = 0; i < 6; ++i) {
+            store_lanes(planes[i], *parts[i]);
+        }
+        for (; packs != 0; packs &= packs - 1) {
+            const auto pack = static_cast<std::size_t>(__builtin_ctz(packs));
+            const Ray<L>& ray = rays_[pack];
+            for (std::uint32_t i = 0; i < count; ++i) {
+                const Vec3<L> n = lanes<L>(Vec3<R>{planes[0][i], planes[1][i], planes[2][i]});
+                const Vec3<L> a = lanes<L>(Vec3<R>{planes[3][i], planes[4][i], planes[5][i]});
+                const L distance = dot(n, a - ray.org), slope = dot(n, ray.dir);
+                const MaskOf<L> ahead = ((distance >= 0) & (slope > 0)) | ((distance <= 0) & (slope < 0));
+                if (none(ahead)) {
+                    continue;
+                }
+                const EdgeFunctions<L> edges(views[i], ray.dir, packs_[pack].dir_size);
+                if (any(ahead & edges.may_pass())) {
+                    test(pack, {first, count, i});
+                }
+            }
+        }
     }
 
-    /// Enough for all that the corners as seen from the rays' origins may differ from those as seen from the
-    /// common end.
-    T loose_tolerance(const T& tolerance, std::uint32_t first, std::uint32_t count) const {
-        const Corners<T> corners = corners_at<T>(mesh_, {first, count, 0});
-        const Corners<T> to = relative_to(lanes<T>(point_), corners);
-        const T distance =
-            largest_component(maximum(maximum(absolute(to.a), absolute(to.b)), absolute(to.c)));
-        return tolerance + 128 * roundoff<T>() * (distance + T(reach_)) * (distance + T(reach_));
+    /// Enough for whatever rounding makes of the corners as seen from the rays' origins and from their end:
+    /// either may move by a few roundings of `reach_`, and the edge functions of a ray that is within `size`
+    /// of the triangle by that times `size` (an edge function is an edge's product with the line's moment
+    /// about its ends, which is then so small).
+    T loose_tolerance(const Corners<T>& corners) const {
+        const T size = largest_component(maximum(maximum(corners.a, corners.b), corners.c) -
+                                         minimum(minimum(corners.a, corners.b), corners.c));
+        return 512 * roundoff<T>() * size * T(reach_);
     }
 
     void test_from_anywhere(unsigned packs, std::uint32_t first, std::uint32_t count) {
@@ -266,11 +295,16 @@ private:
         const Corners<R> one = corners_at<R>(mesh_, place);
         const Corners<L> corners{lanes<L>(one.a), lanes<L>(one.b), lanes<L>(one.c)};
         const Corners<L> relative = relative_to(ray.org, corners);
+        const L t = distance_to_plane(plane_normal(one), relative.a, ray.dir);
+        MaskOf<L> candidates = is_active(ray) & (t >= ray.t_min); // not the triangle that the ray leaves
+        if (none(candidates)) {
+            return;
+        }
         const EdgeFunctions<L> edges(TriangleView<L>(relative), ray.dir, packs_[pack].dir_size);
-        const MaskOf<L> candidates = edges.may_pass() & is_active(ray);
+        candidates = candidates & edges.may_pass();
         if (any(candidates)) {
-            const MaskOf<L> met = edges.pass(candidates, ray.dir, [&](int i) { return lane(relative, i); });
-            keep(pack, place, one, distance_to_plane(corners, ray.org, ray.dir), met);
+            keep(pack, place, one, t,
+                 edges.pass(candidates, ray.dir, [&](int i) { return lane(relative, i); }));
         }
     }
 

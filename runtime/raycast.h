@@ -142,7 +142,7 @@ public:
             BeamSet<L> beams;
             if (beams.gather(rays_, apex_, accelerator.box)) {
                 beams_ = &beams;
-                traverse_beams(accelerator.nodes.data(), beams,
+                traverse_beams(accelerator.nodes.data(), beams, [](const BvhLeaf&) {},
                                [&](unsigned packs, std::uint32_t first, std::uint32_t count) {
                                    return test_leaf(first, count, packs);
                                });

@@ -215,8 +215,15 @@ bool BeamSet<L>::add(int pack, const Seen& ray) {
         return true;
     }
     const L inverse = 1 / depth(ray.dir);
-    const L gone = depth(ray.org) - L(static_cast<R>(frame_.start));
-    const float near = static_cast<float>(smallest(choose(ray.active, gone, infinity<L>()))) - pad_;
+    const auto low = [&](const L& x) {
+        return static_cast<float>(smallest(choose(ray.active, x, infinity<L>())));
+    };
+    const auto high = [&](const L& x) {
+        return static_cast<float>(largest(choose(ray.active, x, -infinity<L>())));
+    };
+    const bool from_apex = apex_ == Apex::origin; // then all start at depth 0
+    const L gone = from_apex ? L(0) : depth(ray.org) - L(static_cast<R>(frame_.start));
+    const float near = (from_apex ? 0 : low(gone)) - pad_;
     const float far = far_of(ray);
     set_lane(each_.near, pack, near);
     set_lane(each_.far, pack, far);
@@ -224,18 +231,15 @@ bool BeamSet<L>::add(int pack, const Seen& ray) {
     all_.far = maximum(all_.far, far);
     for (int i = 0; i < 2; ++i) {
         const L slope = detail::component(ray.dir, frame_.across(i)) * inverse;
-        if (any(ray.active & !(absolute(slope) <= L(static_cast<R>(steepest))))) {
+        const float low_slope = low(slope), high_slope = high(slope);
+        if (!(low_slope >= -steepest && high_slope <= steepest)) {
             return false;
         }
         const L& org = detail::component(ray.org, frame_.across(i));
-        const L from = apex_ == Apex::origin ? org : org - slope * gone;
-        const auto low = [&](const L& x) {
-            return static_cast<float>(smallest(choose(ray.active, x, infinity<L>())));
-        };
-        const auto high = [&](const L& x) {
-            return static_cast<float>(largest(choose(ray.active, x, -infinity<L>())));
-        };
-        const float values[] = {low(from) - pad_, high(from) + pad_, low(slope), high(slope)};
+        const L from = org - slope * gone;
+        const float start = from_apex ? static_cast<float>(lane(org, 0)) : 0;
+        const float values[] = {(from_apex ? start : low(from)) - pad_,
+                                (from_apex ? start : high(from)) + pad_, low_slope, high_slope};
         set_lane(each_.low[i], pack, values[0]);
         set_lane(each_.high[i], pack, values[1]);
         set_lane(each_.low_slope[i], pack, values[2]);
@@ -250,8 +254,8 @@ bool BeamSet<L>::add(int pack, const Seen& ray) {
 
 /// Calls leaf(packs, first, count) for the leaves that some packs of the beam may meet, near ones first,
 /// until it returns true; it may lower t_max of rays and tell `beams`.
-template <class L, class Leaf>
-void traverse_beams(const BvhNode* nodes, const BeamSet<L>& beams, Leaf&& leaf) {
+template <class L, class Prefetch, class Leaf>
+void traverse_beams(const BvhNode* nodes, const BeamSet<L>& beams, Prefetch&& prefetch, Leaf&& leaf) {
     using C = Pack<float, bvh_width>;
     traverse<float>(
         nodes,
@@ -265,7 +269,7 @@ void traverse_beams(const BvhNode* nodes, const BeamSet<L>& beams, Leaf&& leaf) 
             store_lanes(near, begin);
             return met;
         },
-        [&](float near) { return near <= beams.all().far; },
+        [&](float near) { return near <= beams.all().far; }, prefetch,
         [&](const BvhNode& node, std::uint32_t slot, const BvhLeaf& found) {
             const unsigned packs = beams.packs_in(node, slot);
             return packs != 0 && leaf(packs, found.first, found.count);

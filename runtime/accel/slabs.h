@@ -1,6 +1,8 @@
 #pragma once
 
+#include "runtime/accel/bvh_node.h"
 #include "runtime/bounds.h"
+#include "runtime/math/pack.h"
 #include "runtime/ray.h"
 
 #include <array>
@@ -40,16 +42,17 @@ public:
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const C low = (min[axis] - C(low_org_[axis])) * C(inverse_[axis]);
             const C high = (max[axis] - C(high_org_[axis])) * C(inverse_[axis]);
-            if constexpr (std::is_same_v<MaskOf<L>, bool>) {
-                result.near = maximum(result.near, negative_[axis] ? high : low);
-                result.far = minimum(result.far, negative_[axis] ? low : high);
-            } else {
-                result.near = maximum(result.near, choose(negative_[axis], high, low));
-                result.far = minimum(result.far, choose(negative_[axis], low, high));
-            }
+            const MaskOf<C> negative(negative_[axis]);
+            result.near = maximum(result.near, choose(negative, high, low));
+            result.far = minimum(result.far, choose(negative, low, high));
         }
         return result;
     }
+
+    const L& inverse(std::size_t axis) const { return inverse_[axis]; }
+    /// To be taken off a box's lower or upper bound.
+    const L& low_org(std::size_t axis) const { return low_org_[axis]; }
+    const L& high_org(std::size_t axis) const { return high_org_[axis]; }
 
 private:
     void set_axis(std::size_t axis, const L& org, const L& dir, const L& pad) {
@@ -63,6 +66,48 @@ private:
 
     std::array<L, 3> inverse_, low_org_, high_org_;
     std::array<MaskOf<L>, 3> negative_;
+};
+
+/// One ray's test against a node's eight boxes: SlabRay::range with the planes that come first along the ray
+/// looked up instead of selected.
+template <class R>
+class BoxTest {
+public:
+    BoxTest(const SlabRay<R>& slabs, R t_min) : t_min_(t_min) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            inverse_[axis] = slabs.inverse(axis);
+            const bool negative = inverse_[axis] < 0;
+            near_row_[axis] = axis + (negative ? 3 : 0);
+            far_row_[axis] = axis + (negative ? 0 : 3);
+            near_org_[axis] = negative ? slabs.high_org(axis) : slabs.low_org(axis);
+            far_org_[axis] = negative ? slabs.low_org(axis) : slabs.high_org(axis);
+        }
+    }
+
+    /// The children that the ray meets in [t_min, nearest], as bits, and where, but not before t_min.
+    unsigned operator()(const BvhNode& node, R nearest, R (&near)[bvh_width]) const {
+        unsigned met = 0;
+        const float* rows = &node.min[0][0]; // the upper bounds follow the lower ones
+        for (int i = 0; i < bvh_width; i += lane_count<C>) {
+            C begin(t_min_), end(nearest);
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const C first = load_lanes<C>(rows + bvh_width * near_row_[axis] + i);
+                const C last = load_lanes<C>(rows + bvh_width * far_row_[axis] + i);
+                begin = maximum(begin, (first - C(near_org_[axis])) * C(inverse_[axis]));
+                end = minimum(end, (last - C(far_org_[axis])) * C(inverse_[axis]));
+            }
+            met |= bits(begin <= end) << i;
+            store_lanes(near + i, begin);
+        }
+        return met;
+    }
+
+private:
+    using C = std::conditional_t<sizeof(R) <= sizeof(double), Pack<R, bvh_width>, R>;
+
+    R t_min_;
+    std::array<R, 3> inverse_, near_org_, far_org_;
+    std::array<std::size_t, 3> near_row_, far_row_;
 };
 
 } // namespace scc::runtime

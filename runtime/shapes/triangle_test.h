@@ -95,13 +95,23 @@ constexpr Corners<RealOf<L>> lane(const Corners<L>& corners, int i) {
             {lane(corners.c.x, i), lane(corners.c.y, i), lane(corners.c.z, i)}};
 }
 
+/// Of any length; from the corners themselves, since relative ones have lost what makes a sliver's direction.
+template <class L>
+constexpr Vec3<L> plane_normal(const Corners<L>& corners) {
+    return cross(corners.b - corners.a, corners.c - corners.a);
+}
+
 /// t where the ray meets the triangle's plane, whose distance is accurate also for slivers and agrees with
-/// triangle_surface about the side that a point near the triangle is on. `org` is the ray's, of the lanes'
-/// type or the one that all rays share.
-template <class L, class V>
-constexpr L distance_to_plane(const Corners<V>& corners, const Vec3<V>& org, const Vec3<L>& dir) {
-    const Vec3<V> n = cross(corners.b - corners.a, corners.c - corners.a);
-    return L(dot(n, corners.a - org)) / dot(lanes<L>(n), dir);
+/// triangle_surface about the side that a point near the triangle is on. `to_a` is the first corner relative
+/// to the ray's origin. Each is of the lanes' type or the same for all lanes.
+template <class L, class N, class V>
+constexpr L distance_to_plane(const Vec3<N>& normal, const Vec3<V>& to_a, const Vec3<L>& dir) {
+    if constexpr (std::is_same_v<N, V>) {
+        return L(dot(normal, to_a)) / dot(lanes<L>(normal), dir);
+    } else {
+        const Vec3<L> n = lanes<L>(normal);
+        return dot(n, lanes<L>(to_a)) / dot(n, dir);
+    }
 }
 
 /// t where the ray meets the triangle, on either side of 0; infinity or NaN where it misses.
@@ -114,7 +124,7 @@ constexpr L intersect_triangle(const Corners<L>& corners, const Ray<L>& ray) {
         return infinity<L>();
     }
     inside = edges.pass(inside, ray.dir, [&](int i) { return lane(relative, i); });
-    return choose(inside, distance_to_plane(corners, ray.org, ray.dir), infinity<L>());
+    return choose(inside, distance_to_plane(plane_normal(corners), relative.a, ray.dir), infinity<L>());
 }
 
 /// The weights of the corners where the ray passes through the triangle, 0..1 each.

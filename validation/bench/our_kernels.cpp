@@ -89,11 +89,7 @@ struct OurMesh::Scene {
 
     void store(const Hit<L>& hit, Hits& hits, std::size_t first) const {
         store_lanes(hits.t.data() + first, hit.shape.t);
-        for (unsigned left = bits(hit.shape.t < infinity<L>()); left != 0; left &= left - 1) {
-            const int i = __builtin_ctz(left);
-            hits.triangle[first + static_cast<std::size_t>(i)] =
-                triangle_id(scene.meshes[0], place_of(lane(hit.shape.part, i)));
-        }
+        std::memcpy(hits.triangle.data() + first, &hit.shape.part.v, sizeof hit.shape.part.v);
     }
 };
 

@@ -84,7 +84,7 @@ struct Rays {
 
 struct Hits {
     std::vector<float> t;                ///< infinity: missed
-    std::vector<std::uint32_t> triangle; ///< as in TriangleMesh::indices; of a miss anything
+    std::vector<std::uint32_t> triangle; ///< the tracer's own name for it; of a miss anything
 
     explicit Hits(std::size_t count) : t(count), triangle(count) {}
     bool hit(std::size_t i) const { return t[i] < std::numeric_limits<float>::infinity(); }
