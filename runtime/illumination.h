@@ -1,6 +1,7 @@
 #pragma once
 
 #include "runtime/light.h"
+#include "runtime/math/unit_power.h"
 #include "runtime/math/vec.h"
 
 /// The terms of L7 for one light, over lanes.
@@ -38,7 +39,7 @@ template <class L>
 L highlight(const Vec3<L>& normal, const Vec3<L>& to_light, const Vec3<L>& to_viewer, const L& shininess) {
     const Vec3<L> halfway = to_light + to_viewer;
     const L cosine = dot(halfway, normal) / length(halfway);
-    return power(maximum(L(0), cosine), shininess);
+    return unit_power(maximum(L(0), cosine), shininess);
 }
 
 /// The direction of a mirrored ray; as long as `dir`.

@@ -102,7 +102,8 @@ private:
             return;
         }
         met = edges.pass(met, dir, [&](int i) { return lane(relative, i); });
-        const T t = put_into_box(distance_to_plane(plane_normal(corners), relative.a, dir), corners, slabs_, T(ray_.t_min), met);
+        const T t = put_into_box(distance_to_plane(plane_normal(corners), relative.a, dir), corners, slabs_,
+                                 T(ray_.t_min), met);
         for (unsigned left = bits(met) & present; left != 0; left &= left - 1) {
             const int i = __builtin_ctz(left);
             keep(lane(t, i), {place.first, place.count, place.which + static_cast<std::uint32_t>(i)});
@@ -151,16 +152,18 @@ public:
     }
 
     void run() {
-        traverse_beams(mesh_.nodes, beams_, [&](const BvhLeaf& leaf) { prefetch_leaf(mesh_, leaf); }, [&](unsigned packs, std::uint32_t first, std::uint32_t count) {
-            if (apex_ == Apex::origin) {
-                test_from_apex(packs, first, count);
-            } else if (apex_ == Apex::end) {
-                test_to_apex(packs, first, count);
-            } else {
-                test_from_anywhere(packs, first, count);
-            }
-            return false;
-        });
+        traverse_beams(
+            mesh_.nodes, beams_, [&](const BvhLeaf& leaf) { prefetch_leaf(mesh_, leaf); },
+            [&](unsigned packs, std::uint32_t first, std::uint32_t count) {
+                if (apex_ == Apex::origin) {
+                    test_from_apex(packs, first, count);
+                } else if (apex_ == Apex::end) {
+                    test_to_apex(packs, first, count);
+                } else {
+                    test_from_anywhere(packs, first, count);
+                }
+                return false;
+            });
     }
 
 private:
@@ -236,7 +239,7 @@ private:
                                const MaskOf<L> met = edges.pass(
                                    candidates, dir, [&](int) { return relative_to(point_, corners); });
                                keep(pack, place, corners,
-                     distance_to_plane(plane_normal(corners), corners.a - point_, dir), met);
+                                    distance_to_plane(plane_normal(corners), corners.a - point_, dir), met);
                            });
     }
 

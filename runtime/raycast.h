@@ -47,6 +47,9 @@ inline constexpr std::size_t constant_size = 0;
 template <class T, std::size_t n>
 inline constexpr std::size_t constant_size<std::array<T, n>> = n;
 
+/// So few shapes are tested against a pack whose rays run apart rather than looked up for each ray.
+inline constexpr std::size_t most_without_order = 32;
+
 /// f(element, index) for each until it returns true; whether it did.
 template <class Table, class F>
 bool any_of_table(const Table& table, F&& f) {
@@ -88,6 +91,56 @@ bool any_of_kinds(F&& f) {
         return (one(std::integral_constant<std::uint32_t, kind>{}) || ...);
     }
     (std::make_integer_sequence<std::uint32_t, primitive_kinds>{});
+}
+
+/// Keeps a found hit if it is the nearest so far; whether it was in any lane.
+template <class L>
+bool keep_nearest(Ray<L>& ray, Hit<L>& hit, const ShapeHit<L>& found, std::uint32_t kind, std::uint32_t index,
+                  std::uint32_t tag_id) {
+    using Index = IndexOf<L>;
+    const Index id(tag_id);
+    const MaskOf<L> nearer =
+        (found.t < ray.t_max) | ((found.t == ray.t_max) & (found.t < infinity<L>()) & (id < hit.id));
+    if (none(nearer)) {
+        return false;
+    }
+    ray.t_max = choose(nearer, found.t, ray.t_max);
+    hit.shape.t = choose(nearer, found.t, hit.shape.t);
+    hit.shape.part = choose(nearer, found.part, hit.shape.part);
+    hit.kind = choose(nearer, Index(kind), hit.kind);
+    hit.index = choose(nearer, Index(index), hit.index);
+    hit.id = choose(nearer, id, hit.id);
+    return true;
+}
+template <class L>
+bool keep_blocked(Ray<L>& ray, MaskOf<L>& blocked, const ShapeHit<L>& found) {
+    const MaskOf<L> met = found.t < infinity<L>();
+    if (none(met)) {
+        return false;
+    }
+    blocked = blocked | met;
+    ray.t_max = choose(met, -infinity<L>(), ray.t_max);
+    return true;
+}
+
+/// The search of one pack through a scene without hierarchies: by value, so that what is known stays in
+/// registers.
+template <bool AnyHit, class S, class L>
+auto search_tables(const S& scene, Ray<L> ray) {
+    std::conditional_t<AnyHit, MaskOf<L>, Hit<L>> result{};
+    any_of_kinds<S>([&]<std::uint32_t kind>() {
+        const auto& table = scene.primitives(Of<PrimitiveOfKind<typename S::Real, kind>>{});
+        return any_of_table(table, [&](const auto& primitive, [[maybe_unused]] std::uint32_t index) {
+            const ShapeHit<L> found = primitive.shape.intersect(to_object(primitive, ray));
+            if constexpr (AnyHit) {
+                return keep_blocked(ray, result, found) && none(is_active(ray));
+            } else {
+                keep_nearest(ray, result, found, kind, index, primitive.tag.id);
+                return false;
+            }
+        });
+    });
+    return result;
 }
 
 /// The search of up to N packs of rays through a scene. Of hits at equal distance the smaller Tag::id counts,
@@ -142,16 +195,19 @@ public:
             BeamSet<L> beams;
             if (beams.gather(rays_, apex_, accelerator.box)) {
                 beams_ = &beams;
-                traverse_beams(accelerator.nodes.data(), beams, [](const BvhLeaf&) {},
-                               [&](unsigned packs, std::uint32_t first, std::uint32_t count) {
-                                   return test_leaf(first, count, packs);
-                               });
+                traverse_beams(
+                    accelerator.nodes.data(), beams, [](const BvhLeaf&) {},
+                    [&](unsigned packs, std::uint32_t first, std::uint32_t count) {
+                        return test_leaf(first, count, packs);
+                    });
             } else if constexpr (N > 1) {
                 for (unsigned left = live_; left != 0; left &= left - 1) {
                     const auto i = static_cast<std::size_t>(__builtin_ctz(left));
                     Search<AnyHit, S, L, 1>(scene_, rays_.subspan(i, 1), apex_, results_.subspan(i, 1))
                         .test_hierarchy();
                 }
+            } else if (accelerator.primitives.size() <= most_without_order) {
+                test_leaf(0, static_cast<std::uint32_t>(accelerator.primitives.size()), live_);
             } else {
                 for_each_lane(rays_[0], [&](int i, Ray<R> ray) { test_hierarchy_with(ray, i); });
             }
@@ -247,38 +303,22 @@ private:
     }
 
     template <std::uint32_t kind>
-    void keep(std::size_t pack, const ShapeHit<L>& found, std::uint32_t tag_id,
+    void keep(std::size_t pack, const ShapeHit<L>& found, [[maybe_unused]] std::uint32_t tag_id,
               [[maybe_unused]] std::uint32_t index) {
         Ray<L>& ray = rays_[pack];
+        bool kept = false;
         if constexpr (AnyHit) {
-            const MaskOf<L> met = found.t < infinity<L>();
+            kept = keep_blocked(ray, results_[pack], found);
             if constexpr (N > 1) {
-                if (none(met)) {
-                    return;
-                }
-            }
-            results_[pack] = results_[pack] | met;
-            ray.t_max = choose(met, -infinity<L>(), ray.t_max);
-            if constexpr (N > 1) {
-                live_ &= ~((none(is_active(ray)) ? 1U : 0U) << pack);
+                live_ &= ~((kept && none(is_active(ray)) ? 1U : 0U) << pack);
             }
         } else {
-            using Index = IndexOf<L>;
-            Hit<L>& hit = results_[pack];
-            const Index id(tag_id);
-            const MaskOf<L> nearer =
-                (found.t < ray.t_max) | ((found.t == ray.t_max) & (found.t < infinity<L>()) & (id < hit.id));
-            if (none(nearer)) {
-                return;
-            }
-            ray.t_max = choose(nearer, found.t, ray.t_max);
-            hit.shape.t = choose(nearer, found.t, hit.shape.t);
-            hit.shape.part = choose(nearer, found.part, hit.shape.part);
-            hit.kind = choose(nearer, Index(kind), hit.kind);
-            hit.index = choose(nearer, Index(index), hit.index);
-            hit.id = choose(nearer, id, hit.id);
+            kept = keep_nearest(ray, results_[pack], found, kind, index, tag_id);
         }
-        if constexpr (lane_count < L >> 1) {
+        if (!kept) {
+            return;
+        }
+        if constexpr (lane_count<L> != 1) {
             if (beams_ != nullptr) {
                 beams_->shorten(static_cast<int>(pack), ray);
             }
@@ -301,13 +341,21 @@ inline constexpr bool has_hierarchy = S::traits.accelerator || detail::uses_mesh
 
 /// The packs of one pixel block.
 template <class S, class L>
-inline constexpr int packs_together = has_hierarchy<S>&& lane_count<L> > 1 ? most_packs : 1;
+inline constexpr int packs_together = has_hierarchy<S>&& lane_count<L> != 1 ? most_packs : 1;
 
 /// The nearest hit in each ray's range; of several at that distance the one with the smallest Tag::id. A lane
-/// with t_max < t_min takes no part. At most N packs; the rays' t_max become the hits' distances.
+/// with t_max < t_min takes no part. At most N packs; hits[i] must be as initialised, and the rays' t_max may
+/// become the hits' distances.
 template <int N, SceneModel S, class L>
-void closest_hits(const S& scene, std::span<Ray<L>> rays, Apex apex, std::span<Hit<L>> hits) {
-    detail::Search<false, S, L, N>(scene, rays, apex, hits).run();
+void closest_hits(const S& scene, std::span<Ray<L>> rays, [[maybe_unused]] Apex apex,
+                  std::span<Hit<L>> hits) {
+    if constexpr (has_hierarchy<S>) {
+        detail::Search<false, S, L, N>(scene, rays, apex, hits).run();
+    } else {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            hits[i] = detail::search_tables<false>(scene, rays[i]);
+        }
+    }
 }
 template <SceneModel S, class L>
 Hit<L> closest_hit(const S& scene, Ray<L> ray) {
@@ -316,11 +364,18 @@ Hit<L> closest_hit(const S& scene, Ray<L> ray) {
     return hit;
 }
 
-/// Adds to `blocked` whether anything is in each ray's range. At most N packs; the rays' t_max may become
-/// anything.
+/// Whether anything is in each ray's range. At most N packs; blocked[i] must be false, and the rays' t_max
+/// may become anything.
 template <int N, SceneModel S, class L>
-void any_hits(const S& scene, std::span<Ray<L>> rays, Apex apex, std::span<MaskOf<L>> blocked) {
-    detail::Search<true, S, L, N>(scene, rays, apex, blocked).run();
+void any_hits(const S& scene, std::span<Ray<L>> rays, [[maybe_unused]] Apex apex,
+              std::span<MaskOf<L>> blocked) {
+    if constexpr (has_hierarchy<S>) {
+        detail::Search<true, S, L, N>(scene, rays, apex, blocked).run();
+    } else {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            blocked[i] = detail::search_tables<true>(scene, rays[i]);
+        }
+    }
 }
 template <SceneModel S, class L>
 MaskOf<L> any_hit(const S& scene, Ray<L> ray) {

@@ -117,9 +117,12 @@ private:
                     trace(crop.x0 + x, crop.y0 + y, i * block_width, j * block_height);
                 }
             }
-            for (int r = 0; r < std::min(block_height, renderer_.height_ - y); ++r) {
-                for (int c = 0; c < std::min(block_width, renderer_.width_ - x); ++c) {
-                    store(c, r, renderer_.image_.at(x + c, y + r));
+            const int rows = std::min(block_height, renderer_.height_ - y);
+            const int columns = std::min(block_width, renderer_.width_ - x);
+            for (int r = 0; r < rows; ++r) {
+                float* pixel = renderer_.image_.at(x, y + r);
+                for (int c = 0; c < columns; ++c, pixel += renderer_.image_.channels) {
+                    store(c, r, pixel);
                 }
             }
         }
@@ -161,11 +164,18 @@ private:
             const Apex apex = renderer_.projection() == Projection::perspective ? Apex::origin : Apex::none;
             shader_.radiance(rays, apex, inside, colors);
             for (int p = 0; p < packs; ++p) {
-                for (int k = 0; k < lane_count<L>; ++k) {
-                    const Rgb<L>& color = colors[static_cast<std::size_t>(p)];
-                    sample_at(i + p % packs_across * pack_width + k % pack_width,
-                              j + p / packs_across * pack_height +
-                                  k / pack_width) = {lane(color.r, k), lane(color.g, k), lane(color.b, k)};
+                const Rgb<L>& color = colors[static_cast<std::size_t>(p)];
+                R channels[3][lane_count<L>];
+                store_lanes(channels[0], color.r);
+                store_lanes(channels[1], color.g);
+                store_lanes(channels[2], color.b);
+                for (int row = 0; row < pack_height; ++row) {
+                    Rgb<R>* to = &sample_at(i + p % packs_across * pack_width,
+                                            j + p / packs_across * pack_height + row);
+                    for (int column = 0; column < pack_width; ++column) {
+                        const int k = row * pack_width + column;
+                        to[column] = {channels[0][k], channels[1][k], channels[2][k]};
+                    }
                 }
             }
         }
@@ -181,7 +191,7 @@ private:
                     sum = sum + sample_at(column * n_ + i, row * n_ + j);
                 }
             }
-            const Rgb<R> mean = sum / static_cast<R>(n_ * n_);
+            const Rgb<R> mean = n_ == 1 ? sum : sum / static_cast<R>(n_ * n_);
             // + 0 makes -0 positive, so that a term left out and a term of 0 give the same bits.
             pixel[0] = static_cast<float>(mean.r) + 0.0F;
             pixel[1] = static_cast<float>(mean.g) + 0.0F;

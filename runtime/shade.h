@@ -67,13 +67,11 @@ public:
     Shader(const S& scene, const RenderSettings& settings, RayCounts& counts)
         : scene_(scene), depth_(settings.depth), shadows_(settings.shadows), counts_(counts) {}
 
-    /// What comes from along each ray of the active lanes of up to N packs, which are traced together.
-    /// Mirrors are followed one after the other, each weighing what is behind it; after the last bounce a
-    /// mirror shows black.
-    void radiance(std::span<Ray<L>> rays, Apex apex, std::span<const Mask> among,
-                  std::span<Rgb<L>> sums) const {
+    /// What comes from along each ray of the active lanes. Mirrors are followed one after the other, each
+    /// weighing what is behind it; after the last bounce a mirror shows black.
+    void radiance(std::array<Ray<L>, N>& rays, Apex apex, const std::array<Mask, N>& among,
+                  std::array<Rgb<L>, N>& sums) const {
         Packs packs;
-        packs.count = rays.size();
         for (std::size_t i = 0; i < packs.count; ++i) {
             packs[i].active = among[i];
             sums[i] = {L(0), L(0), L(0)};
@@ -82,9 +80,8 @@ public:
             std::array<Hit<L>, N> hits;
             for (std::size_t i = 0; i < packs.count; ++i) {
                 rays[i].t_max = choose(packs[i].active, rays[i].t_max, -infinity<L>());
-                hits[i] = {};
             }
-            closest_hits<N, S, L>(scene_, rays, apex, {hits.data(), packs.count});
+            closest_hits<N, S, L>(scene_, rays, apex, hits);
             bool goes_on = false;
             for (std::size_t i = 0; i < packs.count; ++i) {
                 Pack& pack = packs[i];
@@ -139,7 +136,7 @@ private:
     };
     struct Packs {
         std::array<Pack, N> list;
-        std::size_t count;
+        static constexpr std::size_t count = N;
         Pack& operator[](std::size_t i) { return list[i]; }
     };
 
@@ -300,8 +297,7 @@ private:
                 }
                 rays[i].t_max = choose(lit[i], rays[i].t_max, -infinity<L>());
             }
-            any_hits<N, S, L>(scene_, {rays.data(), packs.count}, apex_of(light),
-                              {blocked.data(), packs.count});
+            any_hits<N, S, L>(scene_, rays, apex_of(light), blocked);
             for (std::size_t i = 0; i < packs.count; ++i) {
                 lit[i] = lit[i] & !blocked[i];
             }

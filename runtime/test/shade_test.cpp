@@ -42,11 +42,10 @@ Scene floor_scene(const Phong<double>& material) {
 }
 
 Rgb<double> radiance(const Scene& scene, const RenderSettings& settings, RayCounts& counts, Ray<double> ray) {
-    const bool active = true;
-    Rgb<double> color;
-    detail::Shader<Scene, double>(scene, settings, counts)
-        .radiance({&ray, 1}, Apex::none, {&active, 1}, {&color, 1});
-    return color;
+    std::array<Ray<double>, 1> rays{ray};
+    std::array<Rgb<double>, 1> colors;
+    detail::Shader<Scene, double>(scene, settings, counts).radiance(rays, Apex::none, {true}, colors);
+    return colors[0];
 }
 
 double seen(const Scene& scene, const V& eye, const V& dir, int depth = 5, bool shadows = true) {
