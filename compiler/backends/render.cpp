@@ -1,10 +1,9 @@
 #include "compiler/backends/render.h"
 
+#include "compiler/backends/kernels.h"
 #include "compiler/backends/tables.h"
 #include "compiler/ir/traits.h"
 #include "runtime/accel/build.h"
-#include "runtime/host/program.h"
-#include "runtime/render.h"
 
 #include <chrono>
 #include <memory>
@@ -72,28 +71,31 @@ std::shared_ptr<const OwnedScene<R>> build(const ir::Scene& scene) {
 }
 
 template <class R>
-void set_renderer(host::Drawable& drawable, const ir::Scene& scene) {
-    drawable.render = [owned = build<R>(scene)](const runtime::RenderRequest& request,
-                                                runtime::Image& image) {
-        return runtime::render(owned->scene, request, image);
+void set_renderer(host::Drawable& drawable, const ir::Scene& scene, const KernelSet& kernels) {
+    drawable.render = [owned = build<R>(scene), kernel = kernels.of(R{})](
+                          const runtime::RenderRequest& request, runtime::Image& image) {
+        runtime::RenderResult result;
+        kernel(owned->scene, request, image, result);
+        return result;
     };
 }
 
 } // namespace
 
 host::Drawable make_drawable(const ir::Scene& scene, Precision precision) {
+    const KernelSet kernels = choose_kernels();
     host::Drawable drawable{.scene = scene.name,
                             .precision = name_of(precision),
-                            .isa = host::compiled_isa,
+                            .isa = kernels.isa,
                             .features = ir::feature_names(scene.traits),
                             .settings = scene.settings,
                             .times_ms = {},
                             .render = {}};
     const auto start = std::chrono::steady_clock::now();
     if (precision == Precision::single) {
-        set_renderer<float>(drawable, scene);
+        set_renderer<float>(drawable, scene, kernels);
     } else {
-        set_renderer<double>(drawable, scene);
+        set_renderer<double>(drawable, scene, kernels);
     }
     const std::chrono::duration<double, std::milli> gone = std::chrono::steady_clock::now() - start;
     drawable.times_ms.emplace_back("accel", gone.count());
