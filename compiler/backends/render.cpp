@@ -151,9 +151,13 @@ double samples_of(const runtime::RenderSettings& settings) {
            settings.samples_per_axis;
 }
 
+double trial_samples_of(const runtime::RenderSettings& settings, int part) {
+    return std::clamp(samples_of(settings) / part, fewest_trial_samples, most_trial_samples);
+}
+
 /// The whole view with few samples.
-runtime::RenderRequest trial_of(const runtime::RenderSettings& settings, int part, int threads) {
-    const double samples = std::clamp(samples_of(settings) / part, fewest_trial_samples, most_trial_samples);
+std::vector<runtime::RenderRequest> sparse_trial(const runtime::RenderSettings& settings, int part) {
+    const double samples = trial_samples_of(settings, part);
     const double scale = std::sqrt(samples / (static_cast<double>(settings.width) * settings.height));
     const auto scaled = [&](int side) {
         return static_cast<int>(std::lround(std::clamp(scale * side, 1.0, samples)));
@@ -162,23 +166,44 @@ runtime::RenderRequest trial_of(const runtime::RenderSettings& settings, int par
     trial.settings = settings;
     trial.settings.width = scaled(settings.width);
     trial.settings.height = scaled(settings.height);
-    trial.settings.samples_per_axis = 1;
     trial.crop = {0, 0, trial.settings.width, trial.settings.height};
-    trial.threads = threads;
-    return trial;
+    return {trial};
 }
 
-/// The largest difference between the two renderers' pictures.
-double try_both(const Render& single, const Render& full, const runtime::RenderRequest& request) {
-    runtime::Image a(request.settings.width, request.settings.height), b = a;
-    single(request, a);
-    full(request, b);
+/// As many in blocks of neighbours, in rows and columns over the whole picture. They see less of it, but rays
+/// far apart take ten times as long in a mesh, of which they share no part.
+std::vector<runtime::RenderRequest> block_trial(const runtime::RenderSettings& settings, int part) {
+    constexpr int side = 4;
+    const double distance = side * std::sqrt(static_cast<double>(settings.width) * settings.height /
+                                             trial_samples_of(settings, part));
+    const int columns = std::max(1, static_cast<int>(settings.width / distance));
+    const int rows = std::max(1, static_cast<int>(settings.height / distance));
+    const auto start = [](int i, int count, int size) {
+        return std::max(0, static_cast<int>((i + 0.5) / count * size) - side / 2);
+    };
+    std::vector<runtime::RenderRequest> trials;
+    for (int i = 0; i < rows * columns; ++i) {
+        runtime::RenderRequest& trial = trials.emplace_back();
+        trial.settings = settings;
+        const int x = start(i % columns, columns, settings.width),
+                  y = start(i / columns, rows, settings.height);
+        trial.crop = {x, y, std::min(x + side, settings.width), std::min(y + side, settings.height)};
+    }
+    return trials;
+}
+
+/// The largest difference between what the two renderers draw, a sample per pixel.
+double try_both(const Render& single, const Render& full, std::vector<runtime::RenderRequest> trials,
+                int threads) {
     double most = 0;
-    for (int y = 0; y < request.settings.height; ++y) {
-        for (int x = 0; x < request.settings.width; ++x) {
-            for (int channel = 0; channel < 3; ++channel) {
-                most = std::max(most, steps_between(a.at(x, y)[channel], b.at(x, y)[channel]));
-            }
+    for (runtime::RenderRequest& trial : trials) {
+        trial.settings.samples_per_axis = 1;
+        trial.threads = threads;
+        runtime::Image a(trial.crop.x1 - trial.crop.x0, trial.crop.y1 - trial.crop.y0), b = a;
+        single(trial, a);
+        full(trial, b);
+        for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+            most = std::max(most, steps_between(a.pixels[i], b.pixels[i]));
         }
     }
     return most;
@@ -223,7 +248,8 @@ host::Drawable make_drawable_for_8_bits(const ir::Scene& scene, const runtime::R
     double steps = 0;
     for (const int part : trial_parts) {
         if (steps <= most_steps) {
-            steps = std::max(steps, try_both(single, full, trial_of(settings, part, threads)));
+            const auto trials = meshes->empty() ? sparse_trial(settings, part) : block_trial(settings, part);
+            steps = std::max(steps, try_both(single, full, trials, threads));
         }
     }
     const bool fine = steps <= most_steps;
