@@ -201,6 +201,9 @@ TEST_F(CommandLine, AutoPrecisionDependsOnSceneAndFile) {
     expect(choice({"far.scn", "-o", "a.png"}), "double", "size from the origin");
     expect(choice({"far.scn", "-o", "a.png", "--precision", "float"}), "float", "asked for");
 
+    expect(choice({example("mesh.scn"), "-o", "a.png", "--size", "320x240"}), "float",
+           "steps off in a trial");
+
     // A trial finds what no single number shows: float digits that run out in a function of the point.
     write("stripes.scn", "let C = 0\n" + ball +
                              "plane { material = phong { diffuse = fn(s: surface) = "
