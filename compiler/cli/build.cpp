@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 
 namespace scc::cli {
 
@@ -27,7 +28,14 @@ struct Options {
     SceneOptions scene;
     std::string output;
     Emit emit = Emit::exe;
-    compiler::Precision precision = compiler::Precision::full;
+    std::optional<compiler::Precision> chosen_precision; ///< nothing: auto
+
+    /// A program may be asked for a picture that keeps 32 bits of each value, for which float is too coarse.
+    compiler::Precision precision() const { return chosen_precision.value_or(compiler::Precision::full); }
+    const char* precision_reason() const {
+        return chosen_precision ? "asked for"
+                                : "it may be asked for a picture that keeps 32 bits of each value";
+    }
     NativeOptions native;
     std::string report; ///< "text", "json" or empty
 };
@@ -50,7 +58,7 @@ void emit_source(const Loaded& loaded, const Options& options) {
     const std::string values_name =
         compiler::Identifiers("scene_").make(fs::path(options.output).stem().string()) + ".values";
     const compiler::CppProgram program =
-        emit_cpp(loaded.scene, options.precision, compiler::Numbers::in_code, values_name);
+        emit_cpp(loaded.scene, options.precision(), compiler::Numbers::in_code, values_name);
     if (!program.values.empty()) {
         if (options.output == "-") {
             throw host::UsageError(
@@ -65,11 +73,12 @@ void emit_program(const Loaded& loaded, const Options& options) {
     if (options.output == "-") {
         throw host::UsageError("a program cannot go to standard output: give `-o` a file name");
     }
-    compile_native(emit_cpp(loaded.scene, options.precision, compiler::Numbers::as_values), options.native,
+    compile_native(emit_cpp(loaded.scene, options.precision(), compiler::Numbers::as_values), options.native,
                    options.output);
     if (!options.report.empty()) {
         const ReportKind kind = options.report == "json" ? ReportKind::json : ReportKind::text;
-        write_result("-", build_report(loaded, options.precision, options.native, options.output, kind));
+        write_result("-", build_report(loaded, {options.precision(), options.precision_reason()},
+                                       options.native, options.output, kind));
     }
 }
 
@@ -111,7 +120,10 @@ void add_build(CLI::App& app, Run& selected) {
     command->add_option("-o,--output", options->output, "the program, or what --emit asks for; - for stdout")
         ->required()
         ->type_name("PROG");
-    add_precision_option(*command, options->precision);
+    add_precision_option(
+        *command, options->chosen_precision,
+        "of the arithmetic; auto (default) is double, as the program may be asked for a 32-bit "
+        "picture");
     static const std::map<std::string, Emit> kinds{{"exe", Emit::exe},
                                                    {"cpp", Emit::cpp},
                                                    {"ir", Emit::ir},

@@ -127,8 +127,9 @@ Executable everything_program(const Loaded& loaded, compiler::Precision precisio
     return inspect_executable((folder / "everything").string());
 }
 
-std::string as_text(const Facts& facts, const std::string& program, const char* precision) {
-    std::string text = fmt::format("{}: {}\n\nkept\n", program, precision);
+std::string as_text(const Facts& facts, const std::string& program, const ReportPrecision& precision) {
+    std::string text =
+        fmt::format("{}: {} ({})\n\nkept\n", program, name_of(precision.precision), precision.reason);
     for (const Feature& feature : facts.kept) {
         text += fmt::format("  {:24} {}\n", feature.name, feature.place);
     }
@@ -149,7 +150,7 @@ std::string as_text(const Facts& facts, const std::string& program, const char* 
     return text;
 }
 
-std::string as_json(const Facts& facts, const std::string& program, const char* precision) {
+std::string as_json(const Facts& facts, const std::string& program, const ReportPrecision& precision) {
     nlohmann::ordered_json kept = nlohmann::ordered_json::array();
     for (const Feature& feature : facts.kept) {
         kept.push_back({{"feature", feature.name}, {"asked_for_at", feature.place}});
@@ -157,7 +158,8 @@ std::string as_json(const Facts& facts, const std::string& program, const char* 
     const nlohmann::ordered_json json{
         {"schema", 1},
         {"program", program},
-        {"precision", precision},
+        {"precision", name_of(precision.precision)},
+        {"precision_reason", precision.reason},
         {"kept", kept},
         {"left_out", facts.left_out},
         {"libraries", facts.program.libraries},
@@ -172,17 +174,16 @@ std::string as_json(const Facts& facts, const std::string& program, const char* 
 
 } // namespace
 
-std::string build_report(const Loaded& loaded, compiler::Precision precision, const NativeOptions& options,
+std::string build_report(const Loaded& loaded, const ReportPrecision& precision, const NativeOptions& options,
                          const std::string& program, ReportKind kind) {
     const validation::ScratchFolder folder;
     Facts facts;
     add_features(facts, loaded);
     facts.program = inspect_executable(program);
-    facts.with_everything = everything_program(loaded, precision, options, folder.path());
-    measure_times(facts, compiler::make_drawable(loaded.scene, precision), fs::absolute(program),
+    facts.with_everything = everything_program(loaded, precision.precision, options, folder.path());
+    measure_times(facts, compiler::make_drawable(loaded.scene, precision.precision), fs::absolute(program),
                   folder.path());
-    return kind == ReportKind::json ? as_json(facts, program, name_of(precision))
-                                    : as_text(facts, program, name_of(precision));
+    return kind == ReportKind::json ? as_json(facts, program, precision) : as_text(facts, program, precision);
 }
 
 } // namespace scc::cli

@@ -10,9 +10,14 @@ namespace scc::cli {
 
 enum class ReportKind { text, json };
 
+struct ReportPrecision {
+    compiler::Precision precision;
+    const char* reason;
+};
+
 /// What a built program holds and leaves out, and what that saves: measured on this scene, beside the generic
 /// renderer and beside a program that leaves nothing out.
-std::string build_report(const Loaded& loaded, compiler::Precision precision, const NativeOptions& options,
+std::string build_report(const Loaded& loaded, const ReportPrecision& precision, const NativeOptions& options,
                          const std::string& program, ReportKind kind);
 
 } // namespace scc::cli

@@ -5,6 +5,7 @@
 #include "runtime/host/options.h"
 
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -42,8 +43,8 @@ void add_scene_options(CLI::App& app, SceneOptions& options);
 /// -D, --asset-path and --camera alone.
 void add_scene_values(CLI::App& app, SceneOptions& options);
 
-/// `--precision auto|float|double`. `auto` is double: in scalar kernels float gains nothing.
-void add_precision_option(CLI::App& app, compiler::Precision& precision);
+/// `--precision auto|float|double`; nothing is `auto`, which `help` explains.
+void add_precision_option(CLI::App& app, std::optional<compiler::Precision>& precision, const char* help);
 
 /// The render options, or those of them that say how the picture is drawn. Bad values are CLI's usage errors.
 enum class RenderOptionSet { all, picture };

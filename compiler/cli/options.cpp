@@ -29,13 +29,13 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     add_scene_values(app, options);
 }
 
-void add_precision_option(CLI::App& app, compiler::Precision& precision) {
-    static const std::map<std::string, compiler::Precision> names{{"auto", compiler::Precision::full},
-                                                                  {"float", compiler::Precision::single},
-                                                                  {"double", compiler::Precision::full}};
+void add_precision_option(CLI::App& app, std::optional<compiler::Precision>& precision, const char* help) {
+    static const std::map<std::string, std::optional<compiler::Precision>> names{
+        {"auto", std::nullopt},
+        {"float", compiler::Precision::single},
+        {"double", compiler::Precision::full}};
     app.add_option_function<std::string>(
-           "--precision", [&](const std::string& name) { precision = names.at(name); },
-           "of the arithmetic; auto is double (default)")
+           "--precision", [&](const std::string& name) { precision = names.at(name); }, help)
         ->check(CLI::IsMember({"auto", "float", "double"}))
         ->type_name("auto|float|double");
 }

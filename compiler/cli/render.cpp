@@ -2,11 +2,13 @@
 
 #include "compiler/cli/commands.h"
 #include "runtime/host/draw.h"
+#include "runtime/host/image_file.h"
 #include "runtime/host/options.h"
 
 #include <CLI/CLI.hpp>
 
 #include <memory>
+#include <optional>
 
 namespace scc::cli {
 
@@ -15,9 +17,24 @@ namespace {
 struct Options {
     SceneOptions scene;
     host::RenderOptions render;
-    compiler::Precision precision = compiler::Precision::full;
+    std::optional<compiler::Precision> precision; ///< nothing: auto
     std::string mode = "ray";
 };
+
+host::Drawable make_drawable(const compiler::ir::Scene& scene, const Options& options) {
+    if (options.precision) {
+        host::Drawable drawable = compiler::make_drawable(scene, *options.precision);
+        drawable.precision_reason = "asked for";
+        return drawable;
+    }
+    if (!host::keeps_8_bits(options.render.output, options.render.bits)) {
+        host::Drawable drawable = compiler::make_drawable(scene, compiler::Precision::full);
+        drawable.precision_reason = "the file keeps more than 8 bits of each value";
+        return drawable;
+    }
+    const runtime::RenderRequest request = make_request(options.render, scene.settings);
+    return compiler::make_drawable_for_8_bits(scene, request.settings, request.threads);
+}
 
 int render(const Options& options) {
     if (options.mode == "raster") {
@@ -28,7 +45,7 @@ int render(const Options& options) {
     if (!report(loaded)) {
         return host::exit_scene;
     }
-    host::Drawable drawable = compiler::make_drawable(loaded.scene, options.precision);
+    host::Drawable drawable = make_drawable(loaded.scene, options);
     drawable.times_ms.insert(drawable.times_ms.begin(), loaded.times_ms.begin(), loaded.times_ms.end());
     return draw(drawable, options.render);
 }
@@ -40,7 +57,10 @@ void add_render(CLI::App& app, Run& selected) {
     CLI::App* command = app.add_subcommand("render", "draw a scene in this process");
     add_scene_options(*command, options->scene);
     add_render_options(*command, options->render);
-    add_precision_option(*command, options->precision);
+    add_precision_option(
+        *command, options->precision,
+        "of the arithmetic; auto (default): float where an 8-bit picture does not show it, else "
+        "double");
     command->add_option("--mode", options->mode, "ray casting (raster is not supported yet)")
         ->check(CLI::IsMember({"ray", "raster"}))
         ->type_name("ray|raster");

@@ -68,7 +68,7 @@ std::string statistics(const Drawable& drawable, const runtime::RenderRequest& r
                        const runtime::RenderResult& result, double render_ms, double write_ms) {
     std::vector<std::string> times;
     double total = render_ms + write_ms;
-    for (const std::string_view stage : {"parse", "check", "lower", "passes", "accel"}) {
+    for (const std::string_view stage : {"parse", "check", "lower", "passes", "accel", "precision"}) {
         double spent = 0;
         for (const auto& [name, ms] : drawable.times_ms) {
             spent += name == stage ? ms : 0;
@@ -93,6 +93,7 @@ std::string statistics(const Drawable& drawable, const runtime::RenderRequest& r
         member("samples", settings.samples_per_axis * settings.samples_per_axis),
         member("threads", request.threads),
         member("precision", std::string_view(drawable.precision)),
+        member("precision_reason", std::string_view(drawable.precision_reason)),
         member("isa", std::string_view(drawable.isa)),
         "\"times_ms\": " + list("{}", times, 4),
         "\"rays\": " + list("{}",

@@ -14,8 +14,9 @@ namespace scc::host {
 /// A scene that is ready to be drawn, and what the statistics say of it.
 struct Drawable {
     std::string scene;
-    std::string precision; ///< "float" or "double"
-    std::string isa;       ///< what the kernels were compiled for
+    std::string precision;        ///< "float" or "double"
+    std::string precision_reason; ///< why that one
+    std::string isa;              ///< what the kernels were compiled for
     std::vector<std::string> features;
     runtime::RenderSettings settings;
     std::vector<std::pair<std::string, double>> times_ms; ///< of the stages before

@@ -60,6 +60,10 @@ bool is_image_type_known(const std::string& path) {
     return type_of(path) != FileType::unknown;
 }
 
+bool keeps_8_bits(const std::string& path, int bits) {
+    return type_of(path) == FileType::png && bits == 8;
+}
+
 void write_image(const std::string& path, const Image& image, const ImageFileOptions& options) {
     check_writable(image);
     switch (type_of(path)) {

@@ -24,6 +24,7 @@ Drawable load(const Program& program, std::optional<MappedFile>& file) {
     const auto start = std::chrono::steady_clock::now();
     Drawable drawable{.scene = {},
                       .precision = program.precision,
+                      .precision_reason = "the program was made for it",
                       .isa = program.isa,
                       .features = {},
                       .settings = program.settings,

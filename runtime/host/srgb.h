@@ -12,6 +12,12 @@ inline double decode_srgb(double encoded) {
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
+/// The encoded value of linear light, which is clamped to 0..1.
+inline double encode_srgb(double linear) {
+    const double v = linear > 0 ? linear < 1 ? linear : 1 : 0;
+    return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
+}
+
 /// Correctly rounded sRGB codes without a power per value: a code is the number of thresholds that a value
 /// reaches, and the upper bits of the float say where to start counting.
 class SrgbCodes {

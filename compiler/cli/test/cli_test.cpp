@@ -173,6 +173,44 @@ TEST_F(CommandLine, RendersEveryImageTypeWithStatistics) {
     }
 }
 
+// Float where an 8-bit picture does not show it.
+TEST_F(CommandLine, AutoPrecisionDependsOnSceneAndFile) {
+    const std::string ball = "sphere { center = (C, 0, 0), material = phong { shininess = 50 } }\n"
+                             "perspective_camera { eye = (C, 1, 5), target = (C, 0, 0) }\n"
+                             "point_light { position = (C, 4, 5) }\n";
+    write("near.scn", "let C = 0\n" + ball);
+    write("far.scn", "let C = 1e6\n" + ball);
+    const auto choice = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"render", "--stats", "-"});
+        const auto result = scc(options);
+        EXPECT_TRUE(result.ok()) << result.err;
+        const auto stats = nlohmann::json::parse(result.out);
+        return std::string(stats["precision"]) + ": " + std::string(stats["precision_reason"]);
+    };
+    const auto expect = [&](const std::string& chosen, const char* precision, const char* reason) {
+        EXPECT_TRUE(chosen.starts_with(precision)) << chosen;
+        EXPECT_NE(chosen.find(reason), std::string::npos) << chosen;
+    };
+    const std::string chosen = choice({"near.scn", "-o", "a.png"});
+    expect(chosen, "float", "steps off in a trial");
+    EXPECT_EQ(chosen, choice({"near.scn", "-o", "a.PNG", "--threads", "3", "--crop", "0,0,8,8"}));
+    EXPECT_EQ(chosen, choice({"near.scn", "-o", "a.png", "--precision", "auto"}));
+    expect(choice({"near.scn", "-o", "a.png", "--bits", "16"}), "double", "more than 8 bits");
+    expect(choice({"near.scn", "-o", "a.exr"}), "double", "more than 8 bits");
+    expect(choice({"near.scn", "-o", "a.png", "--size", "80x60"}), "double", "too small");
+    expect(choice({"far.scn", "-o", "a.png"}), "double", "size from the origin");
+    expect(choice({"far.scn", "-o", "a.png", "--precision", "float"}), "float", "asked for");
+
+    expect(choice({example("mesh.scn"), "-o", "a.png", "--size", "320x240"}), "float",
+           "steps off in a trial");
+
+    // A trial finds what no single number shows: float digits that run out in a function of the point.
+    write("stripes.scn", "let C = 0\n" + ball +
+                             "plane { material = phong { diffuse = fn(s: surface) = "
+                             "rgb(0.5 + 0.5 * sin(1e6 * s.p.x), 0.5, 0.5) } }\n");
+    expect(choice({"stripes.scn", "-o", "a.png"}), "double", "steps off in a trial");
+}
+
 TEST_F(CommandLine, ThreadsCropAndRepetitionGiveTheSameBits) {
     const std::string scene = example("lecture.scn");
     ASSERT_TRUE(
