@@ -2,7 +2,7 @@
 
 #include "compiler/backends/tables.h"
 #include "compiler/ir/traits.h"
-#include "runtime/accel/build.h"
+#include "compiler/mesh_cache.h"
 #include "runtime/host/program.h"
 #include "runtime/render.h"
 
@@ -43,19 +43,16 @@ runtime::FunctionProgram<R> program_of(const ir::Function& function) {
 template <class R>
 struct OwnedScene {
     runtime::DynamicScene<R> scene;
-    std::vector<runtime::MeshStorage> meshes;
+    std::vector<BuiltMesh> meshes;
 };
 
 template <class R>
-std::shared_ptr<const OwnedScene<R>> build(const ir::Scene& scene) {
+std::shared_ptr<const OwnedScene<R>> build(const ir::Scene& scene, const runtime::BuildOptions& options) {
     auto owned = std::make_shared<OwnedScene<R>>();
     runtime::DynamicScene<R>& out = owned->scene;
     for (const ir::Mesh& mesh : scene.meshes) {
-        owned->meshes.push_back(
-            runtime::build_mesh(mesh.positions, mesh.indices, mesh.normals, mesh.normal_indices));
-    }
-    for (const runtime::MeshStorage& mesh : owned->meshes) {
-        out.meshes.push_back(mesh.data());
+        owned->meshes.push_back(build_mesh(mesh, options));
+        out.meshes.push_back(owned->meshes.back().data);
     }
     for_each_primitive<R>(scene, [&](const auto& primitive) { out.add(primitive); });
     out.materials = materials_of<R>(scene);
@@ -67,21 +64,22 @@ std::shared_ptr<const OwnedScene<R>> build(const ir::Scene& scene) {
     out.camera = convert(scene.camera, R{});
     out.ambient = convert(scene.ambient, R{});
     out.background = convert(scene.background, R{});
-    prepare(out);
+    prepare(out, options);
     return owned;
 }
 
 template <class R>
-void set_renderer(host::Drawable& drawable, const ir::Scene& scene) {
-    drawable.render = [owned = build<R>(scene)](const runtime::RenderRequest& request,
-                                                runtime::Image& image) {
+void set_renderer(host::Drawable& drawable, const ir::Scene& scene, const runtime::BuildOptions& options) {
+    drawable.render = [owned = build<R>(scene, options)](const runtime::RenderRequest& request,
+                                                         runtime::Image& image) {
         return runtime::render(owned->scene, request, image);
     };
 }
 
 } // namespace
 
-host::Drawable make_drawable(const ir::Scene& scene, Precision precision) {
+host::Drawable make_drawable(const ir::Scene& scene, Precision precision,
+                             const runtime::BuildOptions& build) {
     host::Drawable drawable{.scene = scene.name,
                             .precision = name_of(precision),
                             .isa = host::compiled_isa,
@@ -91,9 +89,9 @@ host::Drawable make_drawable(const ir::Scene& scene, Precision precision) {
                             .render = {}};
     const auto start = std::chrono::steady_clock::now();
     if (precision == Precision::single) {
-        set_renderer<float>(drawable, scene);
+        set_renderer<float>(drawable, scene, build);
     } else {
-        set_renderer<double>(drawable, scene);
+        set_renderer<double>(drawable, scene, build);
     }
     const std::chrono::duration<double, std::milli> gone = std::chrono::steady_clock::now() - start;
     drawable.times_ms.emplace_back("accel", gone.count());

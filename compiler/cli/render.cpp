@@ -6,7 +6,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <map>
 #include <memory>
+#include <string>
 
 namespace scc::cli {
 
@@ -17,6 +19,7 @@ struct Options {
     host::RenderOptions render;
     compiler::Precision precision = compiler::Precision::full;
     std::string mode = "ray";
+    runtime::BuildQuality quality = runtime::BuildQuality::high;
 };
 
 int render(const Options& options) {
@@ -28,7 +31,9 @@ int render(const Options& options) {
     if (!report(loaded)) {
         return host::exit_scene;
     }
-    host::Drawable drawable = compiler::make_drawable(loaded.scene, options.precision);
+    host::Drawable drawable =
+        compiler::make_drawable(loaded.scene, options.precision,
+                                {.threads = host::thread_count(options.render), .quality = options.quality});
     drawable.times_ms.insert(drawable.times_ms.begin(), loaded.times_ms.begin(), loaded.times_ms.end());
     return draw(drawable, options.render);
 }
@@ -44,6 +49,15 @@ void add_render(CLI::App& app, Run& selected) {
     command->add_option("--mode", options->mode, "ray casting (raster is not supported yet)")
         ->check(CLI::IsMember({"ray", "raster"}))
         ->type_name("ray|raster");
+    static const std::map<std::string, runtime::BuildQuality> qualities{
+        {"sah", runtime::BuildQuality::high}, {"quick", runtime::BuildQuality::quick}};
+    command
+        ->add_option_function<std::string>(
+            "--accel", [options](const std::string& name) { options->quality = qualities.at(name); },
+            "hierarchies over meshes and shapes: by the surface area heuristic (default), or built in about "
+            "half the time for a preview, whose rays are slower; the same picture")
+        ->check(CLI::IsMember({"sah", "quick"}))
+        ->type_name("sah|quick");
     command->callback([&selected, options] { selected = [options] { return render(*options); }; });
 }
 

@@ -105,6 +105,13 @@ Values::Values(std::span<const std::byte> bytes, std::string owner) : owner_(std
     }
 }
 
+Values Values::unsealed(std::string_view bytes, std::string owner) {
+    Values values;
+    values.rest_ = std::as_bytes(std::span(bytes));
+    values.owner_ = std::move(owner);
+    return values;
+}
+
 const void* Values::next(std::size_t row_size, std::size_t& rows) {
     TableHead head;
     if (rest_.size() < sizeof head) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 /// A scene's numbers apart from the code that draws it. They are tables one after the other, in the order in
@@ -35,8 +36,12 @@ public:
     void add(const std::vector<runtime::MeshData>& meshes);
 
     bool empty() const { return bytes_.empty(); }
+    /// To avoid copies where the size is roughly known.
+    void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
     /// With a seal at the end by which a reader finds and checks them.
     std::string take();
+    /// For a place that checks its content itself.
+    std::string take_unsealed() { return std::exchange(bytes_, {}); }
 
 private:
     std::byte* add_table(std::size_t row_size, std::size_t rows);
@@ -51,6 +56,8 @@ public:
     /// a span. `owner` is named in errors.
     Values(std::span<const std::byte> bytes, std::string owner);
     Values() = default; ///< none
+    /// What take_unsealed() gave, known to be whole.
+    static Values unsealed(std::string_view bytes, std::string owner);
 
     template <class T>
     void read(std::span<const T>& rows) {
