@@ -33,7 +33,7 @@ std::byte* ValuesWriter::add_table(std::size_t row_size, std::size_t rows) {
     TableHead head{row_size, rows};
     const std::size_t start = bytes_.size();
     bytes_.resize(start + sizeof head + aligned(row_size * rows));
-    std::memcpy(&bytes_[start], &head, sizeof head);
+    std::memcpy(&bytes_[start], &head, sizeof head.row_size + sizeof head.rows); // the rest is padding
     return reinterpret_cast<std::byte*>(bytes_.data()) + start + sizeof head;
 }
 
