@@ -138,7 +138,7 @@ void add_build(CLI::App& app, Run& selected) {
     command->add_flag_callback(
         "--no-cache",
         [options] {
-            options->native.cache = {};
+            options->native.use_cache = false;
             options->scene.keep_meshes = false;
         },
         "compile, even if the same code was compiled before");
