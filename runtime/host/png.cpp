@@ -60,20 +60,20 @@ unsigned char paeth(unsigned char left, unsigned char up, unsigned char corner) 
     return to_left <= std::min(to_up, to_corner) ? left : other;
 }
 
-/// The difference from each of three predictions; one loop each, so that the compiler makes vectors of them.
-void differences(const unsigned char* __restrict here, const unsigned char* __restrict above,
-                 std::size_t pixel, std::size_t count, unsigned char* __restrict from_left,
-                 unsigned char* __restrict from_above, unsigned char* __restrict from_nearest) {
-    const unsigned char* const left = here - pixel;
-    const unsigned char* const corner = above - pixel;
+// One loop each, so that the compiler makes vectors of them.
+
+void subtract(const unsigned char* __restrict here, const unsigned char* other, std::size_t count,
+              unsigned char* __restrict result) {
     for (std::size_t i = 0; i < count; ++i) {
-        from_left[i] = static_cast<unsigned char>(here[i] - left[i]);
+        result[i] = static_cast<unsigned char>(here[i] - other[i]);
     }
+}
+
+void subtract_nearest(const unsigned char* __restrict here, const unsigned char* __restrict above,
+                      std::size_t pixel, std::size_t count, unsigned char* __restrict result) {
     for (std::size_t i = 0; i < count; ++i) {
-        from_above[i] = static_cast<unsigned char>(here[i] - above[i]);
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-        from_nearest[i] = static_cast<unsigned char>(here[i] - paeth(left[i], above[i], corner[i]));
+        result[i] =
+            static_cast<unsigned char>(here[i] - paeth((here - pixel)[i], above[i], (above - pixel)[i]));
     }
 }
 
@@ -107,8 +107,9 @@ private:
     using Bytes = std::vector<unsigned char>;
 
     char* add_row(char* to) {
-        differences(here_.data() + pixel_, above_.data() + pixel_, pixel_, row_, from_left_.data(),
-                    from_above_.data(), from_nearest_.data());
+        const unsigned char* const here = here_.data() + pixel_;
+        const unsigned char* const above = above_.data() + pixel_;
+        subtract(here, above, row_, from_above_.data());
         const Bytes* best = &from_above_;
         char filter = 2;
         std::size_t least = sum_of_sizes(from_above_);
@@ -119,8 +120,12 @@ private:
                 filter = its_filter;
             }
         };
-        consider(from_left_, 1);
-        consider(from_nearest_, 4);
+        if (least > row_ / 32) { // else it cannot get much smaller
+            subtract(here, here_.data(), row_, from_left_.data());
+            consider(from_left_, 1);
+            subtract_nearest(here, above, pixel_, row_, from_nearest_.data());
+            consider(from_nearest_, 4);
+        }
         *to++ = filter;
         std::memcpy(to, best->data(), row_);
         return to + row_;
