@@ -7,9 +7,6 @@
 
 namespace scc::compiler {
 
-/// In object space.
-runtime::Bounds<double> mesh_bounds(const ir::Mesh& mesh);
-
 /// In object space; none for unbounded shapes.
 std::optional<runtime::Bounds<double>> object_bounds(const ir::Shape& shape, const ir::Scene& scene);
 

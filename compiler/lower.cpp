@@ -2,7 +2,7 @@
 
 #include "compiler/lower_material.h"
 #include "compiler/lower_view.h"
-#include "compiler/mesh_file.h"
+#include "compiler/mesh_cache.h"
 #include "compiler/shape_rules.h"
 #include "compiler/values.h"
 #include "lang/schema.h"
@@ -66,6 +66,7 @@ private:
     MaterialTable materials_;
     std::map<std::pair<std::string, MeshNormals>, std::optional<std::uint32_t>> meshes_;
     std::set<std::string> mesh_names_;
+    std::optional<host::Cache> cache_; ///< once a mesh asks for it
     std::set<std::string> paths_;
     bool full_ = false;
 };
@@ -163,7 +164,10 @@ std::optional<std::uint32_t> ObjectLowering::load_mesh(const Thing& thing, const
         return std::nullopt;
     }
     try {
-        LoadedMesh loaded = load_obj(asset.path, normals);
+        if (options_.keep_meshes && !cache_) {
+            cache_ = host::Cache::of_user();
+        }
+        LoadedMesh loaded = compiler::load_mesh(asset.path, normals, cache_.value_or(host::Cache()));
         for (const std::string& warning : loaded.warnings) {
             diagnostics_.report(Diag::suspect_mesh, place, quoted, warning);
         }

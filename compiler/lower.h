@@ -12,7 +12,8 @@ namespace scc::compiler {
 struct LowerOptions {
     std::string name; ///< of the scene: the file's, without folder and extension
     AssetPolicy assets;
-    std::string camera; ///< --camera; empty: the scene's choice
+    std::string camera;       ///< --camera; empty: the scene's choice
+    bool keep_meshes = false; ///< take them from the user's cache and leave them there
 };
 
 /// Makes the Scene IR from a checked module: groups are taken apart into objects with composed transforms,

@@ -3,9 +3,13 @@
 #include <fmt/core.h>
 #include <tiny_obj_loader.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iterator>
+#include <istream>
+#include <span>
+#include <streambuf>
+#include <utility>
 
 namespace scc::compiler {
 
@@ -30,19 +34,18 @@ double length(Vector a) {
     return std::sqrt(dot(a, a));
 }
 
-Vector at(const std::vector<float>& values, std::uint32_t index) {
+Vector at(std::span<const float> values, std::uint32_t index) {
     const std::size_t i = 3 * static_cast<std::size_t>(index);
     return {values[i], values[i + 1], values[i + 2]};
 }
 
-std::string read_text(const std::filesystem::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    if (!stream || stream.bad()) {
-        throw MeshError("cannot be read");
+/// A stream that reads where the text lies.
+struct TextBuffer : std::streambuf {
+    explicit TextBuffer(std::string_view text) {
+        char* begin = const_cast<char*>(text.data()); // read only: no position is ever written to
+        setg(begin, begin, begin + text.size());
     }
-    return text;
-}
+};
 
 // The material library of an OBJ file is not read; a reader that succeeds keeps tinyobjloader from
 // complaining.
@@ -53,29 +56,43 @@ struct NoMaterials : tinyobj::MaterialReader {
     }
 };
 
-struct Corner {
-    int vertex = -1;
-    int normal = -1;
-};
-
 struct Parsed {
     std::vector<float> positions;
     std::vector<float> normals;
-    std::vector<Corner> corners; // three per triangle
+    std::vector<tinyobj::shape_t> shapes;
+
+    std::size_t triangles() const {
+        std::size_t corners = 0;
+        for (const tinyobj::shape_t& shape : shapes) {
+            corners += shape.mesh.indices.size();
+        }
+        return corners / 3;
+    }
+    /// f(corners of a triangle, its number) for all triangles.
+    template <class F>
+    void for_each_triangle(F&& f) const {
+        std::size_t triangle = 0;
+        for (const tinyobj::shape_t& shape : shapes) {
+            for (std::size_t i = 0; i + 2 < shape.mesh.indices.size(); i += 3) {
+                f(&shape.mesh.indices[i], triangle++);
+            }
+        }
+    }
 };
 
 // Faces are counted by line, since tinyobjloader skips the ones that it cannot use.
-std::size_t broken_face_line(const std::string& text) {
+std::size_t broken_face_line(std::string_view text) {
+    const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
     std::size_t line = 1;
     for (std::size_t begin = 0; begin < text.size(); ++line) {
         const std::size_t end = std::min(text.find('\n', begin), text.size());
         if (end - begin >= 2 && text[begin] == 'f' && (text[begin + 1] == ' ' || text[begin + 1] == '\t')) {
             int words = 0;
-            for (std::size_t i = begin + 1; i < end; ++i) {
-                const auto blank = [&](std::size_t k) {
-                    return text[k] == ' ' || text[k] == '\t' || text[k] == '\r';
-                };
-                words += !blank(i) && blank(i - 1) ? 1 : 0;
+            bool after_blank = false;
+            for (std::size_t i = begin + 1; i < end && words < 3; ++i) {
+                const bool is_blank = blank(text[i]);
+                words += after_blank && !is_blank ? 1 : 0;
+                after_blank = is_blank;
             }
             if (words < 3) {
                 return line;
@@ -86,38 +103,33 @@ std::size_t broken_face_line(const std::string& text) {
     return 0;
 }
 
-Parsed parse(const std::string& text) {
+Parsed parse(std::string_view text) {
     if (const std::size_t line = broken_face_line(text); line != 0) {
         throw MeshError(
             fmt::format("line {} is a face with fewer than three corners; is the file cut short?", line));
     }
     tinyobj::attrib_t attributes;
-    std::vector<tinyobj::shape_t> shapes;
+    Parsed parsed;
     std::vector<tinyobj::material_t> materials;
     std::string warning;
     std::string error;
-    std::istringstream stream(text);
+    TextBuffer buffer(text);
+    std::istream stream(&buffer);
     NoMaterials no_materials;
-    if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &stream, &no_materials, true,
-                          false)) {
+    if (!tinyobj::LoadObj(&attributes, &parsed.shapes, &materials, &warning, &error, &stream, &no_materials,
+                          true, false)) {
         while (!error.empty() && (error.back() == '\n' || error.back() == ' ')) {
             error.pop_back();
         }
         throw MeshError(error.empty() ? "is not a Wavefront OBJ file" : error);
     }
-    Parsed parsed;
-    parsed.positions.assign(attributes.vertices.begin(), attributes.vertices.end());
-    parsed.normals.assign(attributes.normals.begin(), attributes.normals.end());
-    for (const tinyobj::shape_t& shape : shapes) {
-        for (const tinyobj::index_t& index : shape.mesh.indices) {
-            parsed.corners.push_back({index.vertex_index, index.normal_index});
-        }
-    }
+    parsed.positions = std::move(attributes.vertices);
+    parsed.normals = std::move(attributes.normals);
     return parsed;
 }
 
 void verify(const Parsed& parsed) {
-    if (parsed.corners.empty()) {
+    if (parsed.triangles() == 0) {
         throw MeshError("has no faces");
     }
     const auto check_finite = [](const std::vector<float>& values, const char* what) {
@@ -131,27 +143,28 @@ void verify(const Parsed& parsed) {
     check_finite(parsed.normals, "normal");
     const auto vertices = static_cast<int>(parsed.positions.size() / 3);
     const auto normals = static_cast<int>(parsed.normals.size() / 3);
-    for (std::size_t i = 0; i < parsed.corners.size(); ++i) {
-        const Corner& corner = parsed.corners[i];
-        if (corner.vertex < 0 || corner.vertex >= vertices) {
-            throw MeshError(
-                fmt::format("triangle {} uses vertex {}, but there are {}; is the file cut short?", i / 3 + 1,
-                            corner.vertex + 1, vertices));
+    parsed.for_each_triangle([&](const tinyobj::index_t* corners, std::size_t triangle) {
+        for (const tinyobj::index_t* corner = corners; corner != corners + 3; ++corner) {
+            if (corner->vertex_index < 0 || corner->vertex_index >= vertices) {
+                throw MeshError(
+                    fmt::format("triangle {} uses vertex {}, but there are {}; is the file cut short?",
+                                triangle + 1, corner->vertex_index + 1, vertices));
+            }
+            if (corner->normal_index >= normals) {
+                throw MeshError(fmt::format("triangle {} uses normal {}, but there are {}", triangle + 1,
+                                            corner->normal_index + 1, normals));
+            }
         }
-        if (corner.normal >= normals) {
-            throw MeshError(fmt::format("triangle {} uses normal {}, but there are {}", i / 3 + 1,
-                                        corner.normal + 1, normals));
-        }
-    }
+    });
 }
 
-Vector face_normal(const ir::Mesh& mesh, std::size_t triangle) {
+Vector face_normal(const ir::MeshArrays& mesh, std::size_t triangle) {
     const Vector a = at(mesh.positions, mesh.indices[3 * triangle]);
     return cross(at(mesh.positions, mesh.indices[3 * triangle + 1]) - a,
                  at(mesh.positions, mesh.indices[3 * triangle + 2]) - a);
 }
 
-double corner_angle(const ir::Mesh& mesh, std::size_t triangle, std::size_t corner) {
+double corner_angle(const ir::MeshArrays& mesh, std::size_t triangle, std::size_t corner) {
     const std::uint32_t* index = &mesh.indices[3 * triangle];
     const Vector p = at(mesh.positions, index[corner]);
     const Vector a = at(mesh.positions, index[(corner + 1) % 3]) - p;
@@ -165,7 +178,7 @@ void append(std::vector<float>& values, Vector v) {
     values.push_back(static_cast<float>(v.z));
 }
 
-void smooth_normals(ir::Mesh& mesh) {
+void smooth_normals(ir::MeshArrays& mesh) {
     std::vector<Vector> sums(mesh.positions.size() / 3);
     for (std::size_t t = 0; t < mesh.indices.size() / 3; ++t) {
         const Vector n = face_normal(mesh, t);
@@ -183,55 +196,68 @@ void smooth_normals(ir::Mesh& mesh) {
 }
 
 bool file_normals_usable(const Parsed& parsed) {
-    if (parsed.normals.empty()) {
-        return false;
-    }
-    for (const Corner& corner : parsed.corners) {
-        if (corner.normal < 0 || length(at(parsed.normals, static_cast<std::uint32_t>(corner.normal))) == 0) {
-            return false;
+    bool usable = !parsed.normals.empty();
+    parsed.for_each_triangle([&](const tinyobj::index_t* corners, std::size_t) {
+        for (std::size_t k = 0; usable && k < 3; ++k) {
+            const int normal = corners[k].normal_index;
+            usable = normal >= 0 && length(at(parsed.normals, static_cast<std::uint32_t>(normal))) != 0;
         }
-    }
-    return true;
+    });
+    return usable;
 }
 
 // Returns how many triangles were left out because their corners lie on a line.
-std::size_t add_triangles(ir::Mesh& mesh, const Parsed& parsed, bool with_normals) {
-    std::size_t dropped = 0;
-    for (std::size_t i = 0; i + 2 < parsed.corners.size(); i += 3) {
+std::size_t add_triangles(ir::MeshArrays& mesh, const Parsed& parsed, bool with_normals) {
+    const std::size_t triangles = parsed.triangles();
+    mesh.indices.reserve(3 * triangles);
+    mesh.normal_indices.reserve(with_normals ? 3 * triangles : 0);
+    parsed.for_each_triangle([&](const tinyobj::index_t* corners, std::size_t) {
         for (std::size_t k = 0; k < 3; ++k) {
-            mesh.indices.push_back(static_cast<std::uint32_t>(parsed.corners[i + k].vertex));
+            mesh.indices.push_back(static_cast<std::uint32_t>(corners[k].vertex_index));
         }
         if (!(length(face_normal(mesh, mesh.indices.size() / 3 - 1)) > 0)) {
             mesh.indices.resize(mesh.indices.size() - 3);
-            ++dropped;
-            continue;
+            return;
         }
         for (std::size_t k = 0; with_normals && k < 3; ++k) {
-            mesh.normal_indices.push_back(static_cast<std::uint32_t>(parsed.corners[i + k].normal));
+            mesh.normal_indices.push_back(static_cast<std::uint32_t>(corners[k].normal_index));
         }
-    }
-    return dropped;
+    });
+    return triangles - mesh.indices.size() / 3;
 }
 
 } // namespace
 
-LoadedMesh load_obj(const std::filesystem::path& path, MeshNormals normals) {
-    const std::string text = read_text(path);
-    const Parsed parsed = parse(text);
+std::string read_obj(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    if (!stream || error) {
+        throw MeshError("cannot be read");
+    }
+    std::string text(size, '\0');
+    if (!stream.read(text.data(), static_cast<std::streamsize>(size))) {
+        throw MeshError("cannot be read");
+    }
+    return text;
+}
+
+LoadedMesh parse_obj(std::string_view text, MeshNormals normals) {
+    Parsed parsed = parse(text);
     verify(parsed);
 
     LoadedMesh result;
     if (text.back() != '\n') {
         result.warnings.push_back("the last line has no end; is the file cut short?");
     }
-    ir::Mesh& mesh = result.mesh;
-    mesh.name = path.stem().string();
-    mesh.positions = parsed.positions;
+    ir::MeshArrays mesh;
+    mesh.positions = std::move(parsed.positions);
     const bool with_normals = normals == MeshNormals::file && file_normals_usable(parsed);
     if (const std::size_t dropped = add_triangles(mesh, parsed, with_normals); dropped > 0) {
-        result.warnings.push_back(fmt::format("{} of {} triangles have no area and were left out", dropped,
-                                              parsed.corners.size() / 3));
+        result.warnings.push_back(
+            fmt::format("{} of {} triangles have no area and were left out", dropped, parsed.triangles()));
     }
+    parsed.shapes.clear();
     if (mesh.indices.empty()) {
         throw MeshError("has no triangle with an area");
     }
@@ -244,6 +270,13 @@ LoadedMesh load_obj(const std::filesystem::path& path, MeshNormals normals) {
     } else if (normals == MeshNormals::smooth) {
         smooth_normals(mesh);
     }
+    result.mesh = ir::make_mesh("", std::move(mesh));
+    return result;
+}
+
+LoadedMesh load_obj(const std::filesystem::path& path, MeshNormals normals) {
+    LoadedMesh result = parse_obj(read_obj(path), normals);
+    result.mesh.name = path.stem().string();
     return result;
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace scc::compiler {
@@ -21,11 +22,17 @@ struct LoadedMesh {
     std::vector<std::string> warnings;
 };
 
-/// Reads a Wavefront OBJ file through tinyobjloader: polygons are split into triangles, degenerate triangles
-/// are left out. `smooth` normals are the face normals around a vertex, weighted by their angle there; `file`
-/// falls back to flat shading where the file has no normals. Throws MeshError on what cannot be drawn: no
-/// faces, indices beyond the vertices, coordinates that are not finite, faces with fewer than three corners
-/// (a truncated file).
+/// The file's bytes. Throws MeshError.
+std::string read_obj(const std::filesystem::path& path);
+
+/// Reads the text of a Wavefront OBJ file through tinyobjloader: polygons are split into triangles,
+/// degenerate triangles are left out. `smooth` normals are the face normals around a vertex, weighted by
+/// their angle there; `file` falls back to flat shading where the file has no normals. Throws MeshError on
+/// what cannot be drawn: no faces, indices beyond the vertices, coordinates that are not finite, faces with
+/// fewer than three corners (a truncated file).
+LoadedMesh parse_obj(std::string_view text, MeshNormals normals);
+
+/// Both; the mesh has the file's name.
 LoadedMesh load_obj(const std::filesystem::path& path, MeshNormals normals);
 
 } // namespace scc::compiler

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 namespace scc::compiler {
 
@@ -34,7 +35,7 @@ struct Packed {
     std::string bytes;
 };
 
-Packed packed(const std::vector<float>& values) {
+Packed packed(std::span<const float> values) {
     Packed result{"<f4", {}};
     for (const float value : values) {
         append_little_endian(result.bytes, std::bit_cast<std::uint32_t>(value));
@@ -42,7 +43,7 @@ Packed packed(const std::vector<float>& values) {
     return result;
 }
 
-Packed packed(const std::vector<std::uint32_t>& values) {
+Packed packed(std::span<const std::uint32_t> values) {
     const bool is_short = std::all_of(values.begin(), values.end(), [](std::uint32_t value) {
         return value <= std::numeric_limits<std::uint16_t>::max();
     });
@@ -58,7 +59,7 @@ Packed packed(const std::vector<std::uint32_t>& values) {
 }
 
 template <class T>
-void write_array(Writer& out, std::string_view name, const std::vector<T>& values) {
+void write_array(Writer& out, std::string_view name, std::span<const T> values) {
     if (values.empty()) {
         return;
     }

@@ -2,8 +2,9 @@
 
 #include "compiler/backends/tables.h"
 #include "compiler/ir/traits.h"
+#include "compiler/mesh_cache.h"
 #include "compiler/writer.h"
-#include "runtime/accel/build.h"
+#include "runtime/host/parallel.h"
 #include "runtime/host/values.h"
 
 #include <fmt/core.h>
@@ -347,13 +348,11 @@ void Emitter<R>::meshes() {
     if (scene_.meshes.empty() && !any_scene_) {
         return;
     }
-    std::vector<runtime::MeshStorage> built;
+    std::vector<BuiltMesh> built;
     std::vector<runtime::MeshData> data;
     for (const ir::Mesh& mesh : scene_.meshes) {
-        built.push_back(runtime::build_mesh(mesh.positions, mesh.indices, mesh.normals, mesh.normal_indices));
-    }
-    for (const runtime::MeshStorage& mesh : built) {
-        data.push_back(mesh.data());
+        built.push_back(build_mesh(mesh, {.threads = host::core_count()}));
+        data.push_back(built.back().data);
     }
     out_.raw_line("static inline std::vector<MeshData> meshes;");
     values_.add(data);

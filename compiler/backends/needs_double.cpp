@@ -48,7 +48,7 @@ double stretch_of(const runtime::Affine<double>& map) {
 std::optional<std::string> needs_double(const ir::Scene& scene) {
     std::vector<runtime::Bounds<double>> mesh_boxes;
     for (const ir::Mesh& mesh : scene.meshes) {
-        mesh_boxes.push_back(mesh_bounds(mesh));
+        mesh_boxes.push_back(mesh.box);
     }
     const double eye = largest_coordinate(scene.camera.eye);
     for (const ir::Object& object : scene.objects) {

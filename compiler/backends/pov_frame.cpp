@@ -104,7 +104,7 @@ PovFrame choose_frame(const ir::Scene& scene) {
 }
 
 double mesh_scale(const ir::Mesh& mesh) {
-    const double size = size_of(mesh_bounds(mesh));
+    const double size = size_of(mesh.box);
     return size > 0 && (size < 0.1 || size > 1e4) ? nearest_power_of_two(comfortable_size / size) : 1;
 }
 

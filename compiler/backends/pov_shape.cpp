@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 
 namespace scc::compiler {
 
@@ -118,14 +119,14 @@ void list(Writer& out, std::string_view name, std::size_t count, Item item) {
     out.line("}}");
 }
 
-void list_vectors(Writer& out, std::string_view name, const std::vector<float>& values, float scale) {
+void list_vectors(Writer& out, std::string_view name, std::span<const float> values, float scale) {
     list(out, name, values.size() / 3, [&](std::size_t i) {
         return fmt::format("<{}, {}, {}>", scale * values[3 * i], scale * values[3 * i + 1],
                            scale * values[3 * i + 2]);
     });
 }
 
-void list_faces(Writer& out, std::string_view name, const std::vector<std::uint32_t>& indices) {
+void list_faces(Writer& out, std::string_view name, std::span<const std::uint32_t> indices) {
     list(out, name, indices.size() / 3, [&](std::size_t i) {
         return fmt::format("<{}, {}, {}>", indices[3 * i], indices[3 * i + 2], indices[3 * i + 1]);
     });

@@ -4,6 +4,7 @@
 #include "compiler/backends/needs_double.h"
 #include "compiler/backends/tables.h"
 #include "compiler/ir/traits.h"
+#include "compiler/mesh_cache.h"
 #include "runtime/accel/build.h"
 #include "runtime/host/srgb.h"
 
@@ -45,14 +46,13 @@ runtime::FunctionProgram<R> program_of(const ir::Function& function) {
     return program;
 }
 
-using Meshes = std::vector<runtime::MeshStorage>;
+using Meshes = std::vector<BuiltMesh>;
 using Render = decltype(host::Drawable::render);
 
-std::shared_ptr<const Meshes> build_meshes(const ir::Scene& scene) {
+std::shared_ptr<const Meshes> build_meshes(const ir::Scene& scene, const runtime::BuildOptions& options) {
     auto meshes = std::make_shared<Meshes>();
     for (const ir::Mesh& mesh : scene.meshes) {
-        meshes->push_back(
-            runtime::build_mesh(mesh.positions, mesh.indices, mesh.normals, mesh.normal_indices));
+        meshes->push_back(build_mesh(mesh, options));
     }
     return meshes;
 }
@@ -65,12 +65,13 @@ struct OwnedScene {
 };
 
 template <class R>
-std::shared_ptr<const OwnedScene<R>> build(const ir::Scene& scene, std::shared_ptr<const Meshes> meshes) {
+std::shared_ptr<const OwnedScene<R>> build(const ir::Scene& scene, std::shared_ptr<const Meshes> meshes,
+                                           const runtime::BuildOptions& options) {
     auto owned = std::make_shared<OwnedScene<R>>();
     owned->meshes = std::move(meshes);
     runtime::DynamicScene<R>& out = owned->scene;
-    for (const runtime::MeshStorage& mesh : *owned->meshes) {
-        out.meshes.push_back(mesh.data());
+    for (const BuiltMesh& mesh : *owned->meshes) {
+        out.meshes.push_back(mesh.data);
     }
     for_each_primitive<R>(scene, [&](const auto& primitive) { out.add(primitive); });
     out.materials = materials_of<R>(scene);
@@ -82,24 +83,24 @@ std::shared_ptr<const OwnedScene<R>> build(const ir::Scene& scene, std::shared_p
     out.camera = convert(scene.camera, R{});
     out.ambient = convert(scene.ambient, R{});
     out.background = convert(scene.background, R{});
-    prepare(out);
+    prepare(out, options);
     return owned;
 }
 
 template <class R>
 Render make_renderer(const ir::Scene& scene, const std::shared_ptr<const Meshes>& meshes,
-                     const KernelSet& kernels) {
-    return [owned = build<R>(scene, meshes), kernel = kernels.of(R{})](const runtime::RenderRequest& request,
-                                                                       runtime::Image& image) {
+                     const KernelSet& kernels, const runtime::BuildOptions& options) {
+    return [owned = build<R>(scene, meshes, options),
+            kernel = kernels.of(R{})](const runtime::RenderRequest& request, runtime::Image& image) {
         runtime::RenderResult result;
         kernel(owned->scene, request, image, result);
         return result;
     };
 }
 Render make_renderer(Precision precision, const ir::Scene& scene, const std::shared_ptr<const Meshes>& meshes,
-                     const KernelSet& kernels) {
-    return precision == Precision::single ? make_renderer<float>(scene, meshes, kernels)
-                                          : make_renderer<double>(scene, meshes, kernels);
+                     const KernelSet& kernels, const runtime::BuildOptions& options) {
+    return precision == Precision::single ? make_renderer<float>(scene, meshes, kernels, options)
+                                          : make_renderer<double>(scene, meshes, kernels, options);
 }
 
 host::Drawable describe(const ir::Scene& scene, const KernelSet& kernels) {
@@ -219,37 +220,38 @@ std::optional<std::string> reason_against_float(const ir::Scene& scene,
 
 } // namespace
 
-host::Drawable make_drawable(const ir::Scene& scene, Precision precision) {
+host::Drawable make_drawable(const ir::Scene& scene, Precision precision,
+                             const runtime::BuildOptions& options) {
     const KernelSet kernels = choose_kernels();
     host::Drawable drawable = describe(scene, kernels);
     drawable.precision = name_of(precision);
     const Stopwatch watch;
-    drawable.render = make_renderer(precision, scene, build_meshes(scene), kernels);
+    drawable.render = make_renderer(precision, scene, build_meshes(scene, options), kernels, options);
     drawable.times_ms.emplace_back("accel", watch.milliseconds());
     return drawable;
 }
 
 host::Drawable make_drawable_for_8_bits(const ir::Scene& scene, const runtime::RenderSettings& settings,
-                                        int threads) {
+                                        const runtime::BuildOptions& options) {
     if (const std::optional<std::string> reason = reason_against_float(scene, settings)) {
-        host::Drawable drawable = make_drawable(scene, Precision::full);
+        host::Drawable drawable = make_drawable(scene, Precision::full, options);
         drawable.precision_reason = *reason;
         return drawable;
     }
     const KernelSet kernels = choose_kernels();
     host::Drawable drawable = describe(scene, kernels);
     const Stopwatch build_watch;
-    const std::shared_ptr<const Meshes> meshes = build_meshes(scene);
-    Render single = make_renderer<float>(scene, meshes, kernels);
+    const std::shared_ptr<const Meshes> meshes = build_meshes(scene, options);
+    Render single = make_renderer<float>(scene, meshes, kernels, options);
     drawable.times_ms.emplace_back("accel", build_watch.milliseconds());
 
     const Stopwatch watch;
-    Render full = make_renderer<double>(scene, meshes, kernels);
+    Render full = make_renderer<double>(scene, meshes, kernels, options);
     double steps = 0;
     for (const int part : trial_parts) {
         if (steps <= most_steps) {
             const auto trials = meshes->empty() ? sparse_trial(settings, part) : block_trial(settings, part);
-            steps = std::max(steps, try_both(single, full, trials, threads));
+            steps = std::max(steps, try_both(single, full, trials, options.threads));
         }
     }
     const bool fine = steps <= most_steps;

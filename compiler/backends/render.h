@@ -2,17 +2,19 @@
 
 #include "compiler/backends/precision.h"
 #include "compiler/ir/scene.h"
+#include "runtime/accel/build.h"
 #include "runtime/host/draw.h"
 
 namespace scc::compiler {
 
 /// The scene in the generic renderer's tables, hierarchies built, ready to be drawn in this process.
-host::Drawable make_drawable(const ir::Scene& scene, Precision precision);
+host::Drawable make_drawable(const ir::Scene& scene, Precision precision,
+                             const runtime::BuildOptions& options = {});
 
 /// The same for a picture of this size and so many samples whose file keeps 8 bits of each value: in float
 /// where that, as far as the scene's numbers and a trial with a few thousand samples tell, changes no value
 /// by more than a quarter of a step. The same scene, size and samples give the same choice.
 host::Drawable make_drawable_for_8_bits(const ir::Scene& scene, const runtime::RenderSettings& settings,
-                                        int threads);
+                                        const runtime::BuildOptions& options);
 
 } // namespace scc::compiler

@@ -148,7 +148,11 @@ void add_build(CLI::App& app, Run& selected) {
                    "say what the program holds and leaves out, and what that saves; --report=json: as JSON")
         ->check(CLI::IsMember({"text", "json"}));
     command->add_flag_callback(
-        "--no-cache", [options] { options->native.cache = {}; },
+        "--no-cache",
+        [options] {
+            options->native.use_cache = false;
+            options->scene.keep_meshes = false;
+        },
         "compile, even if the same code was compiled before");
     command->callback([&selected, options] { selected = [options] { return build(*options); }; });
 }

@@ -1,6 +1,7 @@
 #include "compiler/cli/native.h"
 
 #include "compiler/cli/commands.h"
+#include "runtime/host/cache.h"
 #include "runtime/host/file.h"
 #include "validation/scratch.h"
 #include "validation/subprocess.h"
@@ -215,13 +216,14 @@ void install(std::string_view code, const std::string& values, const fs::path& o
 void compile_native(const compiler::CppProgram& program, const NativeOptions& options,
                     const fs::path& output) {
     const Toolchain toolchain = find_toolchain(options.target);
+    const host::Cache cache = options.use_cache ? host::Cache::of_user() : host::Cache();
     const std::string key = host::cache_key({toolchain.key, program.source});
-    if (const std::optional<host::Cache::Entry> found = options.cache.find("code", key)) {
+    if (const std::optional<host::Cache::Entry> found = cache.find("code", key)) {
         install(found->content(), program.values, output);
         return;
     }
-    const std::string code = compile(toolchain, options.cache, program.source);
-    options.cache.store("code", key, code);
+    const std::string code = compile(toolchain, cache, program.source);
+    cache.store("code", key, code);
     install(code, program.values, output);
 }
 

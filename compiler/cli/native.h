@@ -1,7 +1,6 @@
 #pragma once
 
 #include "compiler/backends/cpp.h"
-#include "runtime/host/cache.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -17,7 +16,7 @@ enum class Target {
 
 struct NativeOptions {
     Target target = Target::host;
-    host::Cache cache = host::Cache::of_user();
+    bool use_cache = true; ///< the user's, for compiled code
 };
 
 /// Compiles a generated program (Numbers::as_values) with the system's C++ compiler (the one in CXX, else

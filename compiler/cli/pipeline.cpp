@@ -65,6 +65,7 @@ compiler::LowerOptions lower_options(const SceneOptions& options,
     compiler::LowerOptions result;
     result.name = fs::path(options.file).stem().string();
     result.camera = options.camera;
+    result.keep_meshes = options.keep_meshes;
     result.assets.scene_folder = fs::path(options.file).parent_path();
     result.assets.asset_paths.assign(options.asset_paths.begin(), options.asset_paths.end());
     for (const lang::Definition& definition : definitions) {

@@ -19,6 +19,7 @@ struct SceneOptions {
     std::vector<std::string> definitions; ///< -D name=value
     std::vector<std::string> asset_paths;
     std::string camera;
+    bool keep_meshes = true; ///< in the user's cache
 };
 
 /// A scene on its way through the stages; each stage is run by `load` as far as it was asked to.

@@ -7,8 +7,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace scc::cli {
 
@@ -19,21 +21,23 @@ struct Options {
     host::RenderOptions render;
     std::optional<compiler::Precision> precision; ///< nothing: auto
     std::string mode = "ray";
+    runtime::BuildQuality quality = runtime::BuildQuality::high;
 };
 
 host::Drawable make_drawable(const compiler::ir::Scene& scene, const Options& options) {
+    const runtime::BuildOptions build{host::thread_count(options.render), options.quality};
     if (options.precision) {
-        host::Drawable drawable = compiler::make_drawable(scene, *options.precision);
+        host::Drawable drawable = compiler::make_drawable(scene, *options.precision, build);
         drawable.precision_reason = "asked for";
         return drawable;
     }
     if (!host::keeps_8_bits(options.render.output, options.render.bits)) {
-        host::Drawable drawable = compiler::make_drawable(scene, compiler::Precision::full);
+        host::Drawable drawable = compiler::make_drawable(scene, compiler::Precision::full, build);
         drawable.precision_reason = "the file keeps more than 8 bits of each value";
         return drawable;
     }
     const runtime::RenderRequest request = make_request(options.render, scene.settings);
-    return compiler::make_drawable_for_8_bits(scene, request.settings, request.threads);
+    return compiler::make_drawable_for_8_bits(scene, request.settings, build);
 }
 
 int render(const Options& options) {
@@ -64,6 +68,15 @@ void add_render(CLI::App& app, Run& selected) {
     command->add_option("--mode", options->mode, "ray casting (raster is not supported yet)")
         ->check(CLI::IsMember({"ray", "raster"}))
         ->type_name("ray|raster");
+    static const std::map<std::string, runtime::BuildQuality> qualities{
+        {"sah", runtime::BuildQuality::high}, {"quick", runtime::BuildQuality::quick}};
+    command
+        ->add_option_function<std::string>(
+            "--accel", [options](const std::string& name) { options->quality = qualities.at(name); },
+            "hierarchies over meshes and shapes: by the surface area heuristic (default), or built in about "
+            "half the time for a preview, whose rays are slower; the same picture")
+        ->check(CLI::IsMember({"sah", "quick"}))
+        ->type_name("sah|quick");
     command->callback([&selected, options] { selected = [options] { return render(*options); }; });
 }
 

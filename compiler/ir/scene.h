@@ -1,6 +1,7 @@
 #pragma once
 
 #include "compiler/ir/function.h"
+#include "compiler/ir/mesh.h"
 #include "lang/source.h"
 #include "runtime/camera.h"
 #include "runtime/light.h"
@@ -45,15 +46,6 @@ struct Light {
     std::variant<runtime::PointLight<double>, runtime::DirectionalLight<double>> light;
     std::string name; ///< unique
     lang::Span span;
-};
-
-/// A triangle mesh in object space. Three indices per triangle, counter-clockwise seen from the front.
-struct Mesh {
-    std::string name;                          ///< file name without folder and extension; unique
-    std::vector<float> positions;              ///< x y z each
-    std::vector<float> normals;                ///< x y z each, unit; empty: flat shading
-    std::vector<std::uint32_t> indices;        ///< into positions
-    std::vector<std::uint32_t> normal_indices; ///< into normals; same length as indices, or empty
 };
 
 struct Scene {

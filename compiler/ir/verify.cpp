@@ -2,8 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <set>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 
@@ -62,16 +65,20 @@ void verify_object(const Object& object, const Scene& scene) {
     }
 }
 
+bool all_below(std::span<const std::uint32_t> indices, std::size_t count) {
+    std::uint32_t largest = 0;
+    for (const std::uint32_t index : indices) {
+        largest = std::max(largest, index);
+    }
+    return indices.empty() || largest < count;
+}
+
 void verify_mesh(const Mesh& mesh) {
     require(mesh.indices.size() % 3 == 0 && !mesh.indices.empty(), "a mesh has whole triangles", mesh.name);
     require(mesh.normal_indices.empty() || mesh.normal_indices.size() == mesh.indices.size(),
             "one normal per corner", mesh.name);
-    for (const std::uint32_t index : mesh.indices) {
-        require(index < mesh.positions.size() / 3, "no such vertex", mesh.name);
-    }
-    for (const std::uint32_t index : mesh.normal_indices) {
-        require(index < mesh.normals.size() / 3, "no such normal", mesh.name);
-    }
+    require(all_below(mesh.indices, mesh.positions.size() / 3), "no such vertex", mesh.name);
+    require(all_below(mesh.normal_indices, mesh.normals.size() / 3), "no such normal", mesh.name);
 }
 
 template <class Entries, class Name>

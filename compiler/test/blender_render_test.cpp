@@ -163,8 +163,7 @@ TEST_F(BlenderRender, DrawsMeshesAsWeDo) {
 perspective_camera { eye = (1, 2, 6), target = (0, 0, 0) }
 point_light { position = (-4, 5, 6) }
 box { min = (-3, -1.2, -3), max = (3, -1, 3) })");
-    ir::Mesh mesh;
-    mesh.name = "grid";
+    ir::MeshArrays mesh;
     constexpr std::uint32_t n = 12;
     for (std::uint32_t i = 0; i < n * n; ++i) {
         const float x = float(i % n) / 4 - 1.4F, z = float(i / n) / 4 - 1.4F;
@@ -180,7 +179,7 @@ box { min = (-3, -1.2, -3), max = (3, -1, 3) })");
         }
     }
     mesh.normal_indices = mesh.indices;
-    scene.meshes.push_back(mesh);
+    scene.meshes.push_back(ir::make_mesh("grid", mesh));
     scene.objects.push_back({.shape = runtime::Mesh<double>{0},
                              .world_from_object = {},
                              .sides = {},

@@ -204,13 +204,12 @@ TEST(BlenderMesh, EncodesByRfc4648) {
 }
 
 TEST(BlenderMesh, ListsSmallArraysAndPacksLargeOnes) {
-    ir::Mesh mesh;
-    mesh.name = "m";
+    ir::MeshArrays mesh;
     mesh.positions = {0.1F, 2, -3};
     mesh.indices.assign(150, 0);
     mesh.indices[1] = 258;
     Writer out;
-    write_mesh(out, mesh);
+    write_mesh(out, ir::make_mesh("m", mesh));
     EXPECT_NE(out.text().find("points=[0.1, 2.0, -3.0]"), std::string::npos) << out.text();
     EXPECT_NE(out.text().find("indices=unpacked(\"<u2\", \"\"\"\n    AAACAQ"), std::string::npos)
         << out.text();

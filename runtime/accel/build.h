@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -19,8 +20,8 @@ namespace detail {
 
 /// What a loader has of a triangle mesh: three indices per triangle.
 struct MeshSource {
-    const std::vector<float>& positions;
-    const std::vector<std::uint32_t>& indices;
+    std::span<const float> positions;
+    std::span<const std::uint32_t> indices;
 
     Vec3<float> corner(std::size_t triangle, std::size_t i) const {
         return read_vector<float>(positions.data(), indices[3 * triangle + i]);
@@ -75,7 +76,7 @@ inline Bounds<float> root_bounds(const std::vector<BvhNode>& nodes) {
 
 /// Three indices per triangle, of at most mesh_most_triangles. `normals` and `normal_indices` empty: flat;
 /// else as many normal indices as indices.
-inline MeshStorage build_mesh(const std::vector<float>& positions, const std::vector<std::uint32_t>& indices,
+inline MeshStorage build_mesh(std::span<const float> positions, std::span<const std::uint32_t> indices,
                               std::vector<float> normals = {}, std::vector<std::uint32_t> normal_indices = {},
                               const BuildOptions& options = {}) {
     const detail::MeshSource source{positions, indices};

@@ -133,12 +133,10 @@ void Cache::store(std::string_view kind, const std::string& key, std::string_vie
         Seal seal;
         seal.size = content.size();
         seal.checksum = checksum(content);
-        std::string bytes;
-        bytes.reserve(content.size() + sizeof seal);
-        bytes += content;
-        bytes.append(reinterpret_cast<const char*>(&seal), sizeof seal);
+        const std::array<std::string_view, 2> parts{content,
+                                                    {reinterpret_cast<const char*>(&seal), sizeof seal}};
         fs::create_directories(folder_ / kind);
-        replace_file((folder_ / kind / key).string(), bytes);
+        replace_file((folder_ / kind / key).string(), parts);
         make_room();
     } catch (const FileError&) {
     } catch (const fs::filesystem_error&) {

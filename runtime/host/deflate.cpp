@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <vector>
@@ -14,7 +15,7 @@ namespace scc::host {
 namespace {
 
 constexpr std::size_t window = 32768;
-constexpr std::size_t shortest_match = 4, longest_match = 258;
+constexpr std::size_t longest_match = 258;
 constexpr int end_of_block = 256, first_length = 257;
 constexpr std::size_t literal_symbols = 286, distance_symbols = 30, length_symbols = 19;
 constexpr int longest_code = 15, longest_length_code = 7;
@@ -96,32 +97,76 @@ std::size_t common_length(const char* a, const char* b, std::size_t most) {
     return length;
 }
 
-std::vector<Token> find_tokens(std::string_view bytes) {
-    constexpr int hash_bits = 13;
-    constexpr std::size_t nowhere = ~std::size_t{0};
-    std::array<std::size_t, std::size_t{1} << hash_bits> last_seen;
-    last_seen.fill(nowhere);
-    std::vector<Token> tokens;
-    tokens.reserve(bytes.size() / 4);
-    const char* const data = bytes.data();
-    std::size_t at = 0;
-    while (at + shortest_match <= bytes.size()) {
-        const std::uint32_t here = load4(data + at);
-        std::size_t& seen = last_seen[here * 0x9e3779b1U >> (32 - hash_bits)];
-        const std::size_t before = seen;
-        seen = at;
-        if (before != nowhere && at - before <= window && load4(data + before) == here) {
-            const std::size_t length =
-                common_length(data + at, data + before, std::min(bytes.size() - at, longest_match));
-            tokens.push_back(
-                {static_cast<std::uint16_t>(length), static_cast<std::uint16_t>(at - before - 1)});
-            at += length;
-        } else {
-            tokens.push_back({0, static_cast<unsigned char>(data[at])});
-            ++at;
+std::uint64_t load8(const char* at) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, at, sizeof word);
+    return word;
+}
+
+/// What each byte will cost on its own, roughly, in eighths of a bit.
+std::array<unsigned, 256> guess_costs(std::string_view bytes) {
+    constexpr std::size_t stride = 7; // a few samples tell; no multiple of a pixel's size
+    std::array<unsigned, 256> counts{};
+    unsigned total = 1;
+    for (std::size_t i = 1; i + 8 <= bytes.size(); i += stride) {
+        // Not where all bytes are the same: such stretches are taken as a whole.
+        if (load8(&bytes[i]) != load8(&bytes[i - 1])) {
+            ++counts[static_cast<unsigned char>(bytes[i])];
+            ++total;
         }
     }
-    for (; at < bytes.size(); ++at) {
+    std::array<unsigned, 256> costs{};
+    for (std::size_t byte = 0; byte < costs.size(); ++byte) {
+        costs[byte] =
+            std::max(8U, static_cast<unsigned>(8 * std::log2(3 * static_cast<float>(total) /
+                                                             (3.0F * static_cast<float>(counts[byte]) + 1))));
+    }
+    return costs;
+}
+
+/// Repetitions are taken where they are cheaper than their bytes. In rendered pictures, filtered, most bytes
+/// are small differences that cost a bit or two: a short repetition from far away costs more.
+std::vector<Token> find_tokens(std::string_view bytes) {
+    constexpr int hash_bits = 13;
+    constexpr std::uint32_t hashed = 6;          // bytes, and so the shortest repetition
+    constexpr unsigned repetition_cost = 14 * 8; // without the bits of its distance
+    constexpr std::size_t always_cheaper = 32;
+    const std::array<unsigned, 256> costs = guess_costs(bytes);
+    std::array<std::uint32_t, std::size_t{1} << hash_bits> last_seen;
+    last_seen.fill(std::uint32_t{1} << 31); // far off
+    std::vector<Token> tokens;
+    tokens.reserve(bytes.size() / 2);
+    const char* const data = bytes.data();
+    const auto end = static_cast<std::uint32_t>(bytes.size());
+    std::uint32_t at = 0;
+    while (at + 8 <= end) {
+        const std::uint64_t here = load8(data + at);
+        std::uint32_t& seen = last_seen[(here << 16) * 0x9e3779b97f4a7c15 >> (64 - hash_bits)];
+        const std::uint32_t before = seen, distance = at - before;
+        seen = at;
+        std::uint32_t bytes_alone = 1;
+        if (distance <= window && (load8(data + before) ^ here) << 16 == 0) {
+            const std::size_t length =
+                common_length(data + at, data + before, std::min<std::size_t>(end - at, longest_match));
+            unsigned saved = 0;
+            for (std::size_t i = 0; i < std::min(length, always_cheaper); ++i) {
+                saved += costs[static_cast<unsigned char>(data[at + i])];
+            }
+            if (length >= always_cheaper ||
+                saved >= repetition_cost + 8 * static_cast<unsigned>(std::bit_width(distance))) {
+                tokens.push_back(
+                    {static_cast<std::uint16_t>(length), static_cast<std::uint16_t>(distance - 1)});
+                at += static_cast<std::uint32_t>(length);
+                continue;
+            }
+            // Nor will it be cheaper to begin it later.
+            bytes_alone = static_cast<std::uint32_t>(length) - hashed + 1;
+        }
+        for (const std::uint32_t stop = at + bytes_alone; at < stop; ++at) {
+            tokens.push_back({0, static_cast<unsigned char>(data[at])});
+        }
+    }
+    for (; at < end; ++at) {
         tokens.push_back({0, static_cast<unsigned char>(data[at])});
     }
     return tokens;
@@ -223,25 +268,28 @@ std::array<Code, n> huffman_codes(std::array<std::uint32_t, n> counts, int longe
 
 class BitWriter {
 public:
-    /// Room for `bytes` more, which put() does not check.
+    /// Room for `bytes` more, which nothing below checks.
     void reserve(std::size_t bytes) { text_.resize(size_ + bytes + sizeof buffer_); }
-    /// At most 32 bits.
-    void put(std::uint64_t bits, int count) {
+    /// At most 56 bits between two flushes.
+    void add(std::uint64_t bits, int count) {
         buffer_ |= bits << filled_;
         filled_ += count;
-        if (filled_ >= 32) {
-            std::memcpy(&text_[size_], &buffer_, sizeof(std::uint32_t));
-            size_ += sizeof(std::uint32_t);
-            buffer_ >>= 32;
-            filled_ -= 32;
-        }
+    }
+    void flush() {
+        std::memcpy(&text_[size_], &buffer_, sizeof buffer_);
+        const int whole = filled_ & ~7;
+        size_ += static_cast<std::size_t>(whole / 8);
+        buffer_ >>= whole; // at most 56
+        filled_ -= whole;
+    }
+    void put(std::uint64_t bits, int count) {
+        add(bits, count);
+        flush();
     }
     void put(Code code) { put(code.bits, code.length); }
     void fill_byte() {
-        for (; filled_ > 0; filled_ -= 8, buffer_ >>= 8) {
-            text_[size_++] = static_cast<char>(buffer_ & 0xff);
-        }
-        filled_ = 0;
+        filled_ = (filled_ + 7) & ~7;
+        flush();
     }
     void append(std::string_view bytes) {
         std::copy(bytes.begin(), bytes.end(), text_.begin() + static_cast<std::ptrdiff_t>(size_));
@@ -256,7 +304,7 @@ private:
     std::string text_;
     std::size_t size_ = 0;
     std::uint64_t buffer_ = 0;
-    int filled_ = 0;
+    int filled_ = 0; ///< bits of the buffer; fewer than 8 after a flush
 };
 
 /// The code lengths of both alphabets, runs written short (RFC 1951, 3.2.7).
@@ -381,13 +429,15 @@ void write_tokens(BitWriter& out, const std::vector<Token>& tokens,
             out.put(literal[token.value]);
             continue;
         }
+        // At most 15 + 5 + 15 + 13 bits.
         const std::size_t length_code = code_of_length[token.length];
-        out.put(literal[first_length + length_code]);
-        out.put(static_cast<unsigned>(token.length) - lengths[length_code].base,
+        out.add(literal[first_length + length_code].bits, literal[first_length + length_code].length);
+        out.add(static_cast<unsigned>(token.length) - lengths[length_code].base,
                 lengths[length_code].extra_bits);
         const unsigned distance_code = code_of_distance(token.value + 1U);
-        out.put(distance[distance_code]);
-        out.put(token.value + 1U - distances[distance_code].base, distances[distance_code].extra_bits);
+        out.add(distance[distance_code].bits, distance[distance_code].length);
+        out.add(token.value + 1U - distances[distance_code].base, distances[distance_code].extra_bits);
+        out.flush();
     }
     out.put(literal[end_of_block]);
 }
@@ -438,17 +488,21 @@ std::uint32_t adler32(std::string_view bytes) {
     while (!bytes.empty()) {
         const std::string_view part = bytes.substr(0, without_overflow);
         bytes.remove_prefix(part.size());
-        // b gains the bytes' sums so far: once per 16, each weighed by how many sums it is in.
+        // Every 16th byte has sums of its own, so that vectors add them. What b gains by a byte is how many
+        // bytes from it to the end: 16 for each later row, less its place in the row.
+        constexpr std::uint32_t lanes = 16;
+        std::array<std::uint32_t, lanes> sums{}, sums_of_sums{};
         std::size_t i = 0;
-        for (; i + 16 <= part.size(); i += 16) {
-            std::uint32_t sum = 0, weighed = 0;
-            for (std::uint32_t k = 0; k < 16; ++k) {
-                const std::uint32_t byte = static_cast<unsigned char>(part[i + k]);
-                sum += byte;
-                weighed += (16 - k) * byte;
+        for (; i + lanes <= part.size(); i += lanes) {
+            for (std::uint32_t k = 0; k < lanes; ++k) {
+                sums[k] += static_cast<unsigned char>(part[i + k]);
+                sums_of_sums[k] += sums[k];
             }
-            b += 16 * a + weighed;
-            a += sum;
+        }
+        b += static_cast<std::uint32_t>(i) * a;
+        for (std::uint32_t k = 0; k < lanes; ++k) {
+            b += lanes * sums_of_sums[k] - k * sums[k];
+            a += sums[k];
         }
         for (; i < part.size(); ++i) {
             a += static_cast<unsigned char>(part[i]);

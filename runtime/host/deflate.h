@@ -5,13 +5,13 @@
 #include <string_view>
 
 /// Compression as PNG and OpenEXR files have it (RFC 1950, 1951), made for pictures: one look at where the
-/// same four bytes stood before, and Huffman codes of each part's own. Written here and not taken from zlib
+/// same six bytes stood before, and Huffman codes of each part's own. Written here and not taken from zlib
 /// because parts are compressed by several threads, several times as fast, and a program has no library to
 /// bring along.
 namespace scc::host {
 
 /// A stretch of a deflate stream that is whole bytes, so that parts may be joined. It refers to nothing
-/// before it. `last`: ends the stream.
+/// before it. `last`: ends the stream. Less than 2 GiB.
 std::string deflate_part(std::string_view bytes, bool last);
 
 inline constexpr std::string_view zlib_head{"\x78\x01", 2};

@@ -54,23 +54,25 @@ private:
     fs::path path_;
 };
 
-void write_all(Descriptor& file, std::string_view bytes, const std::string& path) {
-    while (!bytes.empty()) {
-        const ssize_t written = ::write(file.get(), bytes.data(), bytes.size());
-        if (written < 0 && errno != EINTR)
-            fail(path, errno);
-        if (written > 0)
-            bytes.remove_prefix(static_cast<std::size_t>(written));
+void write_all(Descriptor& file, std::span<const std::string_view> parts, const std::string& path) {
+    for (std::string_view bytes : parts) {
+        while (!bytes.empty()) {
+            const ssize_t written = ::write(file.get(), bytes.data(), bytes.size());
+            if (written < 0 && errno != EINTR)
+                fail(path, errno);
+            if (written > 0)
+                bytes.remove_prefix(static_cast<std::size_t>(written));
+        }
     }
     if (!file.close())
         fail(path, errno);
 }
 
-void write_in_place(const std::string& path, std::string_view bytes) {
+void write_in_place(const std::string& path, std::span<const std::string_view> parts) {
     Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
     if (file.get() < 0)
         fail(path, errno);
-    write_all(file, bytes, path);
+    write_all(file, parts, path);
 }
 
 /// Where the bytes have to go: the end of a chain of symbolic links.
@@ -85,13 +87,17 @@ fs::path target_of(const std::string& path) {
 } // namespace
 
 void replace_file(const std::string& path, std::string_view bytes, FileKind kind) {
+    replace_file(path, std::span(&bytes, 1), kind);
+}
+
+void replace_file(const std::string& path, std::span<const std::string_view> parts, FileKind kind) {
     const fs::path target = target_of(path);
     std::error_code none;
     const fs::file_status status = fs::status(target, none);
     if (fs::is_directory(status))
         fail(path, EISDIR);
     if (fs::exists(status) && !fs::is_regular_file(status))
-        return write_in_place(path, bytes);
+        return write_in_place(path, parts);
 
     static std::atomic<unsigned> counter{0};
     // Not derived from the file's own name, which may already be as long as the file system allows.
@@ -102,7 +108,7 @@ void replace_file(const std::string& path, std::string_view bytes, FileKind kind
     if (file.get() < 0)
         fail(path, errno);
     TemporaryName temporary(name);
-    write_all(file, bytes, path);
+    write_all(file, parts, path);
     if (::rename(name.c_str(), target.c_str()) != 0)
         fail(path, errno);
     temporary.release();

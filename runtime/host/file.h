@@ -21,6 +21,9 @@ enum class FileKind { data, program };
 /// stays one and its target is replaced. What is not a regular file (a device, a pipe) is written in place.
 /// Throws FileError.
 void replace_file(const std::string& path, std::string_view bytes, FileKind kind = FileKind::data);
+/// The same for content in parts.
+void replace_file(const std::string& path, std::span<const std::string_view> parts,
+                  FileKind kind = FileKind::data);
 
 /// A file's content in memory, read as it is looked at. Throws FileError if it cannot be read.
 class MappedFile {

@@ -1,6 +1,7 @@
 #include "runtime/host/options.h"
 
 #include "runtime/host/image_file.h"
+#include "runtime/host/parallel.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +10,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <string_view>
-#include <thread>
 #include <unistd.h>
 #include <vector>
 
@@ -150,10 +150,6 @@ std::pair<const OptionRow*, std::optional<std::string>> find_row(const std::stri
     throw UsageError("there is no option `" + argument + "`; --help lists them");
 }
 
-int core_count() {
-    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
 } // namespace
 
 std::span<const OptionRow> render_option_rows() {
@@ -221,6 +217,10 @@ void check_output(const RenderOptions& options) {
     }
 }
 
+int thread_count(const RenderOptions& options) {
+    return options.threads > 0 ? options.threads : core_count();
+}
+
 runtime::RenderRequest make_request(const RenderOptions& options, const runtime::RenderSettings& scene) {
     runtime::RenderRequest request;
     request.settings = scene;
@@ -231,7 +231,7 @@ runtime::RenderRequest make_request(const RenderOptions& options, const runtime:
     if (options.samples_per_axis) {
         request.settings.samples_per_axis = *options.samples_per_axis;
     }
-    request.threads = options.threads > 0 ? options.threads : core_count();
+    request.threads = thread_count(options);
     request.crop =
         options.crop.value_or(runtime::Crop{0, 0, request.settings.width, request.settings.height});
     if (request.crop.x1 > request.settings.width || request.crop.y1 > request.settings.height) {

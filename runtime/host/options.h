@@ -60,6 +60,9 @@ std::optional<RenderOptions> parse_program_options(int argc, char** argv, const 
 /// written (FileError).
 void check_output(const RenderOptions& options);
 
+/// At least one.
+int thread_count(const RenderOptions& options);
+
 /// The scene's settings with the command line's on top. Throws UsageError for a crop outside the picture.
 runtime::RenderRequest make_request(const RenderOptions& options, const runtime::RenderSettings& scene);
 

@@ -7,6 +7,10 @@
 
 namespace scc::host {
 
+inline int core_count() {
+    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
 /// f(i) for i from 0 to count - 1, on several threads, of which the caller's is one. `f` must not throw.
 template <class F>
 void parallel_for(int count, int threads, F&& f) {

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -32,6 +35,34 @@ public:
         std::uint16_t code = 0;
         for (std::uint32_t bucket = 0; bucket < buckets; ++bucket)
             first_code_.push_back(code = count_reached(std::bit_cast<float>(bucket << shift), code));
+        for (std::uint32_t bucket = 0; bucket < buckets; ++bucket)
+            one_step_ = one_step_ &&
+                        (bucket + 1 == buckets ? max : first_code_[bucket + 1]) <= first_code_[bucket] + 1;
+    }
+
+    /// One after the other. Faster than single values where no bucket holds two thresholds: no branches.
+    void encode(const float* from, std::size_t count, unsigned char* to) const {
+        if (!one_step_) {
+            for (std::size_t i = 0; i < count; ++i)
+                to[i] = static_cast<unsigned char>((*this)(from[i]));
+            return;
+        }
+        // Locals, since for all the compiler knows `to` may point into this.
+        const std::uint16_t* const first_code = first_code_.data();
+        const float* const thresholds = thresholds_.data();
+        const int shift = shift_;
+        std::array<float, 256> values;
+        for (std::size_t start = 0; start < count; start += values.size()) {
+            const std::size_t n = std::min(values.size(), count - start);
+            for (std::size_t i = 0; i < n; ++i) {
+                const float positive = from[start + i] > 0 ? from[start + i] : 0.0F; // NaN too
+                values[i] = positive < 1 ? positive : 1.0F;
+            }
+            for (std::size_t i = 0; i < n; ++i) {
+                const std::uint16_t code = first_code[std::bit_cast<std::uint32_t>(values[i]) >> shift];
+                to[start + i] = static_cast<unsigned char>(code + (values[i] >= thresholds[code] ? 1 : 0));
+            }
+        }
     }
 
     std::uint16_t operator()(float linear) const {
@@ -57,6 +88,7 @@ private:
 
     std::uint16_t max_;
     int shift_;
+    bool one_step_ = true;
     std::vector<float> thresholds_;
     std::vector<std::uint16_t> first_code_;
 };

@@ -33,7 +33,7 @@ std::byte* ValuesWriter::add_table(std::size_t row_size, std::size_t rows) {
     TableHead head{row_size, rows};
     const std::size_t start = bytes_.size();
     bytes_.resize(start + sizeof head + aligned(row_size * rows));
-    std::memcpy(&bytes_[start], &head, sizeof head);
+    std::memcpy(&bytes_[start], &head, sizeof head.row_size + sizeof head.rows); // the rest is padding
     return reinterpret_cast<std::byte*>(bytes_.data()) + start + sizeof head;
 }
 
@@ -103,6 +103,13 @@ Values::Values(std::span<const std::byte> bytes, std::string owner) : owner_(std
     if (checksum({reinterpret_cast<const char*>(rest_.data()), rest_.size()}) != seal.checksum) {
         fail("are damaged");
     }
+}
+
+Values Values::unsealed(std::string_view bytes, std::string owner) {
+    Values values;
+    values.rest_ = std::as_bytes(std::span(bytes));
+    values.owner_ = std::move(owner);
+    return values;
 }
 
 const void* Values::next(std::size_t row_size, std::size_t& rows) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 /// A scene's numbers apart from the code that draws it. They are tables one after the other, in the order in
@@ -23,8 +24,10 @@ public:
     void add(std::span<const T> rows) {
         static_assert(std::is_trivially_copyable_v<T>);
         std::byte* to = add_table(sizeof(T), rows.size());
-        if (!rows.empty()) {
-            std::memcpy(to, rows.data(), rows.size_bytes());
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            T row = rows[i];
+            clear_padding(row);
+            std::memcpy(to + i * sizeof(T), &row, sizeof(T));
         }
     }
     template <class T>
@@ -35,10 +38,32 @@ public:
     void add(const std::vector<runtime::MeshData>& meshes);
 
     bool empty() const { return bytes_.empty(); }
+    /// To avoid copies where the size is roughly known.
+    void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
     /// With a seal at the end by which a reader finds and checks them.
     std::string take();
+    /// For a place that checks its content itself.
+    std::string take_unsealed() { return std::exchange(bytes_, {}); }
 
 private:
+    /// The same scene gives the same bytes.
+    template <class T>
+    static void clear_padding([[maybe_unused]] T& row) {
+        if constexpr (requires { row.shape.points; }) {
+            // g++ 12 takes members of nested arrays for padding.
+            clear_between(&row.shape.smooth + 1, &row.shape + 1);
+            clear_between(&row.tag + 1, &row + 1);
+        } else {
+#if defined(__has_builtin)
+#if __has_builtin(__builtin_clear_padding)
+            __builtin_clear_padding(&row);
+#endif
+#endif
+        }
+    }
+    static void clear_between(void* begin, void* end) {
+        std::memset(begin, 0, static_cast<std::size_t>(static_cast<char*>(end) - static_cast<char*>(begin)));
+    }
     std::byte* add_table(std::size_t row_size, std::size_t rows);
 
     std::string bytes_;
@@ -51,6 +76,8 @@ public:
     /// a span. `owner` is named in errors.
     Values(std::span<const std::byte> bytes, std::string owner);
     Values() = default; ///< none
+    /// What take_unsealed() gave, known to be whole.
+    static Values unsealed(std::string_view bytes, std::string owner);
 
     template <class T>
     void read(std::span<const T>& rows) {

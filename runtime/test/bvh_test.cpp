@@ -304,8 +304,9 @@ TYPED_TEST(Hierarchy, RaysThroughAxisParallelEdgesOfACubeDoNotLeak) {
         positions.insert(positions.end(),
                          {corner & 1 ? 1.0F : -1.0F, corner & 2 ? 1.0F : -1.0F, corner & 4 ? 1.0F : -1.0F});
     }
-    const MeshStorage cube = build_mesh(positions, {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
-                                                    2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5});
+    const std::vector<std::uint32_t> indices{0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                                             2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+    const MeshStorage cube = build_mesh(positions, indices);
     for (int i = -100; i <= 100; ++i) {
         for (int j = -100; j <= 100; ++j) {
             const Ray<R> ray{{0, 0, 0}, {static_cast<R>(i) / 100, static_cast<R>(j) / 100, 1}};

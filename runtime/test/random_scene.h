@@ -126,7 +126,7 @@ inline MeshStorage ball_mesh(int level, double radius, const Vec3<double>& cente
         positions.insert(positions.end(), {float(q.x), float(q.y), float(q.z)});
         normals.insert(normals.end(), {float(n.x), float(n.y), float(n.z)});
     }
-    return build_mesh(std::move(positions), indices, std::move(normals), indices);
+    return build_mesh(positions, indices, std::move(normals), indices);
 }
 
 /// A random shape, bare or placed, alone in a scene.

@@ -1,5 +1,6 @@
 #include "compiler/cli/test/support.h"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -316,6 +317,51 @@ TEST_F(CommandLine, WarnsOfManyThingsWithoutFillingTheScreen) {
     EXPECT_EQ(result.code, 0);
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 21);
     EXPECT_NE(result.err.find("and 82 more; comments in the scene say which\n"), std::string::npos);
+}
+
+TEST_F(CommandLine, MeshesFromTheCacheGiveTheSamePicture) {
+    std::string obj;
+    for (int i = 0; i < 1600; ++i) {
+        obj += fmt::format("v {} {} {}\n", i % 40 - 20, (i * i) % 7 * 0.2, i / 40 - 20);
+    }
+    for (int i = 0; i < 1559; ++i) {
+        obj += i % 40 == 39 ? "" : fmt::format("f {} {} {} {}\n", i + 1, i + 41, i + 42, i + 2);
+    }
+    write("m.obj", obj + "f 1 1 2\n");
+    write("s.scn", "mesh { file = \"m.obj\", normals = \"smooth\" }\npoint_light { position = (3, 9, 5) }\n"
+                   "perspective_camera { eye = (2, 12, 30) }\n");
+    std::string first, warning;
+    const auto expect_same = [&](const char* when, const std::string& cache, const char* accel) {
+        const auto result =
+            scc({"render", "s.scn", "-o", "a.png", "--size", "64x48", "--accel", accel},
+                {{"XDG_CACHE_HOME", path("cache")}, {"SCC_CACHE", cache}, {"SCC_CACHE_SIZE", ""}});
+        ASSERT_TRUE(result.ok()) << when << result.err;
+        first = first.empty() ? read("a.png") : first;
+        warning = warning.empty() ? result.err : warning;
+        EXPECT_EQ(read("a.png"), first) << when;
+        EXPECT_EQ(result.err, warning) << when;
+    };
+    expect_same("without", "off", "sah");
+    EXPECT_FALSE(exists("cache"));
+    EXPECT_NE(warning.find("suspect-mesh"), std::string::npos) << warning;
+    expect_same("quickly built", "off", "quick");
+    expect_same("kept", "", "sah");
+    expect_same("kept, quickly built", "", "quick");
+    expect_same("found", "", "sah");
+    expect_same("found, quickly built", "", "quick");
+    std::size_t entries = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(path("cache/scc"))) {
+        if (entry.is_regular_file()) {
+            std::filesystem::resize_file(entry.path(), entry.file_size() - 100);
+            ++entries;
+        }
+    }
+    EXPECT_EQ(entries, 3U); // the mesh, and a hierarchy of each quality
+    expect_same("damaged", "", "sah");
+    write("not a folder", "");
+    std::filesystem::remove_all(path("cache"));
+    std::filesystem::rename(path("not a folder"), path("cache"));
+    expect_same("nowhere to keep it", "", "sah");
 }
 
 TEST_F(CommandLine, EmitsEveryStage) {
