@@ -69,7 +69,7 @@ TEST_F(BuiltProgram, HoldsNoCodeForWhatItsSceneLacks) {
         EXPECT_EQ(has(names, feature.symbol), std::string(feature.symbol) == "Scene::bare_sphere")
             << feature.symbol;
     }
-    for (const char* other : {"Pack<double", "build_bvh", "traverse", "OpenImageIO", "CLI::", "fmt::"}) {
+    for (const char* other : {"Pack<double", "BvhBuilder", "traverse", "OpenImageIO", "CLI::", "fmt::"}) {
         EXPECT_FALSE(has(names, other)) << other;
     }
 }
@@ -89,7 +89,7 @@ TEST_F(BuiltProgram, HoldsTheCodeForWhatItsSceneHas) {
     for (int i = 0; i < 20; ++i) {
         many += "sphere { center = (" + std::to_string(i) + ", 3, 0) }\n";
     }
-    EXPECT_TRUE(has(symbols(many, {"--precision", "float"}), "build_bvh"));
+    EXPECT_TRUE(has(symbols(many, {"--precision", "float"}), "BvhBuilder"));
 }
 
 TEST_F(BuiltProgram, NeedsTheCxxLibraryAloneAndIsSmall) {
