@@ -128,7 +128,7 @@ private:
     /// little in it is tested in vain; for others these are the best of a few that were tried on scenes with
     /// thousands of spheres and triangles.
     static constexpr float steepest = 4, most_spread_of_view = 0.6F, most_spread = 0.02F,
-                           most_spread_of_pack = 0.035F;
+                           most_spread_of_pack = 0.07F;
 
     /// A ray, or its reverse from the common end.
     struct Seen {
