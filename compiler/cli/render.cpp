@@ -73,8 +73,8 @@ void add_render(CLI::App& app, Run& selected) {
     command
         ->add_option_function<std::string>(
             "--accel", [options](const std::string& name) { options->quality = qualities.at(name); },
-            "hierarchies over meshes and shapes: by the surface area heuristic (default), or built in about "
-            "half the time for a preview, whose rays are slower; the same picture")
+            "hierarchies over meshes and shapes: by the surface area heuristic (default), or built "
+            "somewhat faster for a preview, whose rays are slower; the same picture")
         ->check(CLI::IsMember({"sah", "quick"}))
         ->type_name("sah|quick");
     command->callback([&selected, options] { selected = [options] { return render(*options); }; });

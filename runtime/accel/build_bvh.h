@@ -36,7 +36,7 @@ struct Bvh {
 
 enum class BuildQuality {
     high, ///< binned surface area heuristic over all axes
-    quick ///< over the longest axis alone: about half the time, rays some 20 % slower
+    quick ///< over the longest axis alone: about four fifths of the time, slower rays
 };
 
 inline float round_to_float_down(long double x) {

@@ -77,7 +77,7 @@ struct EdgeFunctions {
                 const Vec3<double> ray{lane(dir.x, i), lane(dir.y, i), lane(dir.z, i)};
                 const EdgeFunctions<double> exact(TriangleView<double>(to_exactly), ray,
                                                   largest_component(absolute(ray)));
-                set_lane(result, i, exact.may_pass() & !exact.is_edge_on());
+                set_lane(result, i, exact.may_pass() && !exact.is_edge_on());
             }
             return result;
         } else {
