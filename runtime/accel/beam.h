@@ -172,7 +172,8 @@ bool BeamSet<L>::gather(std::span<const Ray<L>> rays, Apex apex, const Bounds<fl
         if (any(here.active & !(depth(here.dir) > 0))) {
             return false;
         }
-        size = maximum(size, choose(here.active, largest_component(absolute(here.org)), L(0)));
+        const Vec3<L> ends = maximum(absolute(here.org), absolute(ray.org)); // which differ for a common end
+        size = maximum(size, choose(here.active, largest_component(ends), L(0)));
         start = minimum(start, choose(here.active, depth(here.org), infinity<L>()));
     }
     scale_ = static_cast<float>(largest(size)) +

@@ -375,7 +375,7 @@ TYPED_TEST(Hierarchy, LanesFindWhatSingleRaysFind) {
 TYPED_TEST(Hierarchy, PacksThatAreTracedTogetherFindWhatSingleRaysFind) {
     using R = TypeParam;
     using L = WidestLane<R>;
-    if constexpr (lane_count < L >> 1) {
+    if constexpr (lane_count<L> != 1) {
         Random<R> random(15);
         const MeshStorage mesh = ball_mesh(3, 1, {0, 0, 0});
         DynamicScene<R> scene;
@@ -387,6 +387,7 @@ TYPED_TEST(Hierarchy, PacksThatAreTracedTogetherFindWhatSingleRaysFind) {
             const int kind = round % 4;
             const Vec3<R> org = random.vector(14), dir = random.direction();
             const R spread = random.number(R(0.001), R(0.4));
+            const R distance = round % 8 == 1 ? R(10) : R(1000); // from the common end to the starts
             std::array<Ray<L>, most_packs> rays;
             std::array<Hit<L>, most_packs> hits;
             std::array<MaskOf<L>, most_packs> blocked;
@@ -395,7 +396,7 @@ TYPED_TEST(Hierarchy, PacksThatAreTracedTogetherFindWhatSingleRaysFind) {
                 for (int i = 0; i < lane_count<L>; ++i) {
                     Ray<R> ray{org, dir + random.vector(spread)};
                     if (kind == 1) {
-                        ray.org = org + ray.dir * 10;
+                        ray.org = org + ray.dir * distance;
                         ray.dir = org - ray.org;
                         ray.t_max = R(0.99);
                     } else if (kind == 2) {
