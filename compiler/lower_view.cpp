@@ -183,6 +183,9 @@ void lower_settings(const lang::Module& module, ir::Scene& scene, lang::Diagnost
     if (render == nullptr) {
         return;
     }
+    if (const lang::Value* file = render->get("file"); file != nullptr) {
+        scene.file = to_text(*file);
+    }
     const auto& size = std::get<lang::Vec2Value>(render->get("size")->v).v;
     scene.settings.width = static_cast<int>(size[0].value);
     scene.settings.height = static_cast<int>(size[1].value);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "runtime/accel/beam.h"
+#include "runtime/accel/view.h"
 #include "runtime/primitive.h"
 
 #include <array>
@@ -126,11 +127,16 @@ bool keep_blocked(Ray<L>& ray, MaskOf<L>& blocked, const ShapeHit<L>& found) {
 /// The search of one pack through a scene without hierarchies: by value, so that what is known stays in
 /// registers.
 template <bool AnyHit, class S, class L>
-auto search_tables(const S& scene, Ray<L> ray) {
+auto search_tables(const S& scene, Ray<L> ray, Candidates candidates) {
     std::conditional_t<AnyHit, MaskOf<L>, Hit<L>> result{};
     any_of_kinds<S>([&]<std::uint32_t kind>() {
         const auto& table = scene.primitives(Of<PrimitiveOfKind<typename S::Real, kind>>{});
         return any_of_table(table, [&](const auto& primitive, [[maybe_unused]] std::uint32_t index) {
+            if constexpr (is_bounded<ShapeOfKind<typename S::Real, kind>>) {
+                if (!next_is_candidate(candidates)) {
+                    return false;
+                }
+            }
             const ShapeHit<L> found = primitive.shape.intersect(to_object(primitive, ray));
             if constexpr (AnyHit) {
                 return keep_blocked(ray, result, found) && none(is_active(ray));
@@ -151,8 +157,9 @@ public:
     using R = typename S::Real;
     using Result = std::conditional_t<AnyHit, MaskOf<L>, Hit<L>>;
 
-    Search(const S& scene, std::span<Ray<L>> rays, Apex apex, std::span<Result> results)
-        : scene_(scene), rays_(rays), apex_(apex), results_(results) {
+    Search(const S& scene, std::span<Ray<L>> rays, Apex apex, std::span<Result> results,
+           Candidates candidates = all_candidates)
+        : scene_(scene), rays_(rays), apex_(apex), results_(results), candidates_(candidates) {
         if constexpr (N > 1) {
             live_ = 0;
             for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -236,6 +243,11 @@ private:
     bool test_table() {
         const auto& table = scene_.primitives(Of<PrimitiveOfKind<R, kind>>{});
         return any_of_table(table, [&](const auto& primitive, std::uint32_t index) {
+            if constexpr (is_bounded<ShapeOfKind<R, kind>>) {
+                if (!next_is_candidate(candidates_)) {
+                    return false;
+                }
+            }
             return test<kind>(primitive, index, live_);
         });
     }
@@ -329,6 +341,7 @@ private:
     std::span<Ray<L>> rays_;
     Apex apex_;
     std::span<Result> results_;
+    Candidates candidates_;
     unsigned live_ = 1; ///< the packs with active rays, as bits
     BeamSet<L>* beams_ = nullptr;
 };
@@ -345,15 +358,15 @@ inline constexpr int packs_together = has_hierarchy<S>&& lane_count<L> != 1 ? mo
 
 /// The nearest hit in each ray's range; of several at that distance the one with the smallest Tag::id. A lane
 /// with t_max < t_min takes no part. At most N packs; hits[i] must be as initialised, and the rays' t_max may
-/// become the hits' distances.
+/// become the hits' distances. The rays meet no bounded primitives but the candidates.
 template <int N, SceneModel S, class L>
-void closest_hits(const S& scene, std::span<Ray<L>> rays, [[maybe_unused]] Apex apex,
-                  std::span<Hit<L>> hits) {
+void closest_hits(const S& scene, std::span<Ray<L>> rays, [[maybe_unused]] Apex apex, std::span<Hit<L>> hits,
+                  Candidates candidates = all_candidates) {
     if constexpr (has_hierarchy<S>) {
-        detail::Search<false, S, L, N>(scene, rays, apex, hits).run();
+        detail::Search<false, S, L, N>(scene, rays, apex, hits, candidates).run();
     } else {
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            hits[i] = detail::search_tables<false>(scene, rays[i]);
+            hits[i] = detail::search_tables<false>(scene, rays[i], candidates);
         }
     }
 }
@@ -373,7 +386,7 @@ void any_hits(const S& scene, std::span<Ray<L>> rays, [[maybe_unused]] Apex apex
         detail::Search<true, S, L, N>(scene, rays, apex, blocked).run();
     } else {
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            blocked[i] = detail::search_tables<true>(scene, rays[i]);
+            blocked[i] = detail::search_tables<true>(scene, rays[i], all_candidates);
         }
     }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "runtime/accel/build.h"
+#include "runtime/accel/view.h"
 #include "runtime/image.h"
 #include "runtime/math/pack.h"
 #include "runtime/shade.h"
@@ -32,7 +33,11 @@ public:
     Renderer(const S& scene, const RenderRequest& request, Image& image)
         : scene_(scene), request_(request), image_(image), width_(request.crop.x1 - request.crop.x0),
           height_(request.crop.y1 - request.crop.y0), tiles_across_((width_ + tile_size - 1) / tile_size),
-          tiles_(tiles_across_ * ((height_ + tile_size - 1) / tile_size)) {}
+          tiles_(tiles_across_ * ((height_ + tile_size - 1) / tile_size)) {
+        if (!is_searched_by_hierarchy()) {
+            boxes_ = primitive_boxes(scene);
+        }
+    }
 
     RenderResult run() {
         const auto threads = static_cast<std::size_t>(std::max(1, std::min(request_.threads, tiles_)));
@@ -74,34 +79,35 @@ private:
 
     template <class AfterTile>
     void draw_tiles(RayCounts& rays, AfterTile&& after_tile) {
-        BlockPainter painter(*this, rays);
+        StripPainter painter(*this, rays);
         while (!stopped_) {
             const int tile = next_++;
             if (tile >= tiles_) {
                 return;
             }
             const int x0 = tile % tiles_across_ * tile_size, y0 = tile / tiles_across_ * tile_size;
+            const Candidates candidates = candidates_in_tile(x0, y0);
             for (int y = y0; y < std::min(y0 + tile_size, height_); y += block_height) {
-                for (int x = x0; x < std::min(x0 + tile_size, width_); x += block_width) {
-                    painter.paint(x, y);
-                }
+                painter.paint(x0, y, candidates);
             }
             ++done_;
             after_tile();
         }
     }
 
-    /// Draws block_width x block_height pixels, each with n x n samples at the centres of sub-pixels. Blocks
-    /// of neighbouring samples, not of pixels, are traced together: with n x n samples in a pixel these run
-    /// more alike, but n x n blocks have as many samples as a block of pixels has.
-    class BlockPainter {
+    /// Draws strips of tile_size x block_height pixels, each with n x n samples at the centres of sub-pixels.
+    /// Blocks of neighbouring samples, not of pixels, are traced together: with n x n samples in a pixel
+    /// these run more alike, but n x n blocks have as many samples as a block of pixels has.
+    class StripPainter {
     public:
-        BlockPainter(const Renderer& renderer, RayCounts& rays)
+        StripPainter(const Renderer& renderer, RayCounts& rays)
             : renderer_(renderer), shader_(renderer.scene_, renderer.request_.settings, rays), rays_(rays),
               n_(renderer.request_.settings.samples_per_axis),
-              samples_across_(static_cast<std::size_t>(n_ * block_width)),
-              samples_(samples_across_ * static_cast<std::size_t>(n_ * block_height)) {
-            for (int first = 0; first < n_ * block_width; first += pack_width) {
+              samples_across_(static_cast<std::size_t>(n_ * tile_size)) {
+            for (std::vector<R>& channel : samples_) {
+                channel.resize(samples_across_ * static_cast<std::size_t>(n_ * block_height));
+            }
+            for (int first = 0; first < n_ * tile_size; first += pack_width) {
                 columns_.push_back(positions(first, [](int lane) { return lane % pack_width; }));
             }
             for (int first = 0; first < n_ * block_height; first += pack_height) {
@@ -110,26 +116,23 @@ private:
         }
 
         /// The pixels from (x, y) of the crop on; those outside the crop are left out.
-        void paint(int x, int y) {
+        void paint(int x, int y, Candidates candidates) {
             const Crop& crop = renderer_.request_.crop;
-            for (int j = 0; j < n_ && y + j * block_height / n_ < renderer_.height_; ++j) {
-                for (int i = 0; i < n_ && x + i * block_width / n_ < renderer_.width_; ++i) {
-                    trace(crop.x0 + x, crop.y0 + y, i * block_width, j * block_height);
+            const int rows = std::min(block_height, renderer_.height_ - y);
+            const int columns = std::min(tile_size, renderer_.width_ - x);
+            for (int j = 0; j < n_ * rows; j += block_height) {
+                for (int i = 0; i < n_ * columns; i += block_width) {
+                    trace(crop.x0 + x, crop.y0 + y, i, j, candidates);
                 }
             }
-            const int rows = std::min(block_height, renderer_.height_ - y);
-            const int columns = std::min(block_width, renderer_.width_ - x);
-            for (int r = 0; r < rows; ++r) {
-                float* pixel = renderer_.image_.at(x, y + r);
-                for (int c = 0; c < columns; ++c, pixel += renderer_.image_.channels) {
-                    store(c, r, pixel);
-                }
+            for (int row = 0; row < rows; ++row) {
+                store(row * n_, columns, renderer_.image_.at(x, y + row));
             }
         }
 
     private:
-        /// Where a pack's samples are in one direction, in pixels of the block: whole ones, and the rest,
-        /// which is added last so that rounding does not depend on where the block begins.
+        /// Where a pack's samples are in one direction, in pixels of the strip: whole ones, and the rest,
+        /// which is added last so that rounding does not depend on where the strip begins.
         struct Positions {
             L pixel, within;
             L from(int start) const { return (L(static_cast<R>(start)) + pixel) + within; }
@@ -146,7 +149,7 @@ private:
         }
 
         /// Samples one block, from (i, j) of the samples of the pixels at (x, y) of the picture.
-        void trace(int x, int y, int i, int j) {
+        void trace(int x, int y, int i, int j, Candidates candidates) {
             const Crop& crop = renderer_.request_.crop;
             std::array<Ray<L>, packs> rays;
             std::array<MaskOf<L>, packs> inside;
@@ -162,40 +165,57 @@ private:
                 rays_.primary += count_lanes(inside[pack]);
             }
             const Apex apex = renderer_.projection() == Projection::perspective ? Apex::origin : Apex::none;
-            shader_.radiance(rays, apex, inside, colors);
+            shader_.radiance(rays, apex, candidates, inside, colors);
             for (int p = 0; p < packs; ++p) {
+                const int pack_i = i + p % packs_across * pack_width,
+                          pack_j = j + p / packs_across * pack_height;
                 const Rgb<L>& color = colors[static_cast<std::size_t>(p)];
-                R channels[3][lane_count<L>];
-                store_lanes(channels[0], color.r);
-                store_lanes(channels[1], color.g);
-                store_lanes(channels[2], color.b);
-                for (int row = 0; row < pack_height; ++row) {
-                    Rgb<R>* to = &sample_at(i + p % packs_across * pack_width,
-                                            j + p / packs_across * pack_height + row);
-                    for (int column = 0; column < pack_width; ++column) {
-                        const int k = row * pack_width + column;
-                        to[column] = {channels[0][k], channels[1][k], channels[2][k]};
-                    }
-                }
+                keep(color.r, sample_at(0, pack_i, pack_j));
+                keep(color.g, sample_at(1, pack_i, pack_j));
+                keep(color.b, sample_at(2, pack_i, pack_j));
             }
         }
-        Rgb<R>& sample_at(int i, int j) {
-            return samples_[static_cast<std::size_t>(j) * samples_across_ + static_cast<std::size_t>(i)];
+        void keep(const L& values, R* to) const {
+            R rows[lane_count<L>];
+            store_lanes(rows, values);
+            for (int row = 0; row < pack_height; ++row, to += samples_across_) {
+                std::copy_n(rows + row * pack_width, pack_width, to);
+            }
+        }
+        R* sample_at(std::size_t channel, int i, int j) {
+            return &samples_[channel]
+                            [static_cast<std::size_t>(j) * samples_across_ + static_cast<std::size_t>(i)];
         }
 
-        /// The mean over a pixel's samples, row by row.
-        void store(int column, int row, float* pixel) {
-            Rgb<R> sum{};
-            for (int j = 0; j < n_; ++j) {
+        /// A row of pixels, whose samples begin at row j.
+        void store(int j, int columns, float* pixels) {
+            const R* const from[] = {sample_at(0, 0, j), sample_at(1, 0, j), sample_at(2, 0, j)};
+            if (n_ == 1) {
+                store(columns, pixels, [=](int channel, int column) { return from[channel][column]; });
+            } else {
+                store(columns, pixels,
+                      [=, this](int channel, int column) { return mean(from[channel] + column * n_); });
+            }
+        }
+        /// + 0 makes -0 positive, so that a term left out and a term of 0 give the same bits.
+        template <class Value>
+        void store(int columns, float* pixel, Value&& value) const {
+            const int stride = renderer_.image_.channels;
+            for (int column = 0; column < columns; ++column, pixel += stride) {
+                pixel[0] = static_cast<float>(value(0, column)) + 0.0F;
+                pixel[1] = static_cast<float>(value(1, column)) + 0.0F;
+                pixel[2] = static_cast<float>(value(2, column)) + 0.0F;
+            }
+        }
+        /// Over a pixel's samples, row by row.
+        R mean(const R* samples) const {
+            R sum = 0;
+            for (int j = 0; j < n_; ++j, samples += samples_across_) {
                 for (int i = 0; i < n_; ++i) {
-                    sum = sum + sample_at(column * n_ + i, row * n_ + j);
+                    sum = sum + samples[i];
                 }
             }
-            const Rgb<R> mean = n_ == 1 ? sum : sum / static_cast<R>(n_ * n_);
-            // + 0 makes -0 positive, so that a term left out and a term of 0 give the same bits.
-            pixel[0] = static_cast<float>(mean.r) + 0.0F;
-            pixel[1] = static_cast<float>(mean.g) + 0.0F;
-            pixel[2] = static_cast<float>(mean.b) + 0.0F;
+            return sum / static_cast<R>(n_ * n_);
         }
 
         const Renderer& renderer_;
@@ -204,15 +224,34 @@ private:
         int n_;
         std::vector<Positions> columns_, rows_; ///< of the packs across and down
         std::size_t samples_across_;
-        std::vector<Rgb<R>> samples_;
+        std::array<std::vector<R>, 3> samples_; ///< red, green, blue
     };
+
+    bool is_searched_by_hierarchy() const {
+        if constexpr (S::traits.accelerator) {
+            return !scene_.accelerator.nodes.empty();
+        } else {
+            return false;
+        }
+    }
+    /// Of the tile that begins at (x, y) of the crop, seen with a pixel around it.
+    Candidates candidates_in_tile(int x, int y) const {
+        if (boxes_.empty()) {
+            return all_candidates;
+        }
+        const R left = static_cast<R>(request_.crop.x0 + x - 1), right = left + R(tile_size + 2);
+        const R top = static_cast<R>(request_.crop.y0 + y - 1), bottom = top + R(tile_size + 2);
+        return candidates_in(boxes_, ViewPart<R>({ray_through(left, top), ray_through(right, top),
+                                                  ray_through(right, bottom), ray_through(left, bottom)}));
+    }
 
     Projection projection() const {
         return !S::traits.orthographic  ? Projection::perspective
                : !S::traits.perspective ? Projection::orthographic
                                         : scene_.camera.projection;
     }
-    Ray<L> ray_through(const L& column, const L& row) const {
+    template <class Lane>
+    Ray<Lane> ray_through(const Lane& column, const Lane& row) const {
         return camera_ray(scene_.camera, projection(), column, row, request_.settings.width,
                           request_.settings.height);
     }
@@ -235,6 +274,7 @@ private:
     Image& image_;
     int width_, height_;
     int tiles_across_, tiles_;
+    std::vector<Bounds<R>> boxes_; ///< of the shapes that are tested one by one, in the order of Candidates
     Clock::time_point reported_ = Clock::now();
     alignas(cache_line) std::atomic<int> next_{0};
     std::atomic<int> done_{0};

@@ -67,13 +67,15 @@ public:
     Shader(const S& scene, const RenderSettings& settings, RayCounts& counts)
         : scene_(scene), depth_(settings.depth), shadows_(settings.shadows), counts_(counts) {}
 
-    /// What comes from along each ray of the active lanes. Mirrors are followed one after the other, each
-    /// weighing what is behind it; after the last bounce a mirror shows black.
-    void radiance(std::array<Ray<L>, N>& rays, Apex apex, const std::array<Mask, N>& among,
-                  std::array<Rgb<L>, N>& sums) const {
+    /// What comes from along each ray of the active lanes, which meet but the candidates first. Mirrors are
+    /// followed one after the other, each weighing what is behind it; after the last bounce a mirror shows
+    /// black.
+    void radiance(std::array<Ray<L>, N>& rays, Apex apex, Candidates candidates,
+                  const std::array<Mask, N>& among, std::array<Rgb<L>, N>& sums) const {
         Packs packs;
         for (std::size_t i = 0; i < packs.count; ++i) {
             packs[i].active = among[i];
+            packs[i].weight = {L(1), L(1), L(1)};
             sums[i] = {L(0), L(0), L(0)};
         }
         for (int bounce = 0;; ++bounce) {
@@ -81,7 +83,7 @@ public:
             for (std::size_t i = 0; i < packs.count; ++i) {
                 rays[i].t_max = choose(packs[i].active, rays[i].t_max, -infinity<L>());
             }
-            closest_hits<N, S, L>(scene_, rays, apex, hits);
+            closest_hits<N, S, L>(scene_, rays, apex, hits, candidates);
             bool goes_on = false;
             for (std::size_t i = 0; i < packs.count; ++i) {
                 Pack& pack = packs[i];
@@ -122,20 +124,25 @@ public:
                 return;
             }
             apex = Apex::none;
+            candidates = all_candidates;
         }
     }
 
 private:
     /// What is known of one pack's rays.
     struct Pack {
-        Mask active{false};
-        Rgb<L> weight{L(1), L(1), L(1)};
+        Mask active;
+        Rgb<L> weight;
         Encounter<L> at;
         Reflectances<L> material;
         Rgb<L> light; ///< that leaves the encounter towards the ray's origin, but for mirrors
     };
+    /// Without values at first: a pack has them from its first hit on, and few have one in every bounce.
     struct Packs {
-        std::array<Pack, N> list;
+        Packs() {}
+        union {
+            std::array<Pack, N> list;
+        };
         static constexpr std::size_t count = N;
         Pack& operator[](std::size_t i) { return list[i]; }
     };
@@ -218,6 +225,9 @@ private:
     void illuminate(Packs& packs) const {
         for (std::size_t i = 0; i < packs.count; ++i) {
             Pack& pack = packs[i];
+            if (none(pack.active)) {
+                continue;
+            }
             pack.light = lanes<L>(scene_.ambient) * pack.material.ambient;
             if constexpr (S::traits.emission) {
                 pack.light = pack.light + pack.material.emission;

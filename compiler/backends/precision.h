@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 namespace scc::compiler {
 
 enum class Precision { single, full };
@@ -8,5 +10,10 @@ enum class Precision { single, full };
 constexpr const char* name_of(Precision precision) {
     return precision == Precision::single ? "float" : "double";
 }
+
+struct PrecisionChoice {
+    Precision precision;
+    std::string reason; ///< for people
+};
 
 } // namespace scc::compiler

@@ -2,18 +2,13 @@
 
 #include "compiler/backends/kernels.h"
 #include "compiler/backends/needs_double.h"
+#include "compiler/backends/precision_trial.h"
 #include "compiler/backends/tables.h"
 #include "compiler/ir/traits.h"
 #include "compiler/mesh_cache.h"
 #include "runtime/accel/build.h"
-#include "runtime/host/srgb.h"
 
-#include <fmt/core.h>
-
-#include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <limits>
 #include <memory>
 
 namespace scc::compiler {
@@ -124,95 +119,14 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// In steps of an 8-bit file; infinite for what is no number in both.
-double steps_between(float a, float b) {
-    constexpr double steps = 255, steepest = 12.92; // of the sRGB encoding, at 0
-    const double difference = std::abs(static_cast<double>(a) - static_cast<double>(b));
-    if (difference * steepest * steps < 1e-3) {
-        return difference * steepest * steps; // most are, and need no power
-    }
-    if (!std::isfinite(a) || !std::isfinite(b)) {
-        return std::numeric_limits<double>::infinity();
-    }
-    return steps * std::abs(host::encode_srgb(a) - host::encode_srgb(b));
-}
-
-/// Where both precisions see the same surface, float is about 1e-4 steps off. Where edges, reflections or a
-/// loss of digits make it more, that covers too much of a picture as soon as one sample of the trials meets
-/// it.
-constexpr double most_steps = 1.0 / 32; // an eighth of what may be lost
-/// First a rough trial, which is enough to see that many scenes need double: one sample of so many.
-constexpr int trial_parts[] = {1000, 200};
-constexpr double fewest_trial_samples = 250, most_trial_samples = 5000;
 /// Below, a trial costs more than float saves.
-constexpr double worth_a_trial = 200 * fewest_trial_samples;
-
-double samples_of(const runtime::RenderSettings& settings) {
-    return static_cast<double>(settings.width) * settings.height * settings.samples_per_axis *
-           settings.samples_per_axis;
-}
-
-double trial_samples_of(const runtime::RenderSettings& settings, int part) {
-    return std::clamp(samples_of(settings) / part, fewest_trial_samples, most_trial_samples);
-}
-
-/// The whole view with few samples.
-std::vector<runtime::RenderRequest> sparse_trial(const runtime::RenderSettings& settings, int part) {
-    const double samples = trial_samples_of(settings, part);
-    const double scale = std::sqrt(samples / (static_cast<double>(settings.width) * settings.height));
-    const auto scaled = [&](int side) {
-        return static_cast<int>(std::lround(std::clamp(scale * side, 1.0, samples)));
-    };
-    runtime::RenderRequest trial;
-    trial.settings = settings;
-    trial.settings.width = scaled(settings.width);
-    trial.settings.height = scaled(settings.height);
-    trial.crop = {0, 0, trial.settings.width, trial.settings.height};
-    return {trial};
-}
-
-/// As many in blocks of neighbours, in rows and columns over the whole picture. They see less of it, but rays
-/// far apart take ten times as long in a mesh, of which they share no part.
-std::vector<runtime::RenderRequest> block_trial(const runtime::RenderSettings& settings, int part) {
-    constexpr int side = 4;
-    const double distance = side * std::sqrt(static_cast<double>(settings.width) * settings.height /
-                                             trial_samples_of(settings, part));
-    const int columns = std::max(1, static_cast<int>(settings.width / distance));
-    const int rows = std::max(1, static_cast<int>(settings.height / distance));
-    const auto start = [](int i, int count, int size) {
-        return std::max(0, static_cast<int>((i + 0.5) / count * size) - side / 2);
-    };
-    std::vector<runtime::RenderRequest> trials;
-    for (int i = 0; i < rows * columns; ++i) {
-        runtime::RenderRequest& trial = trials.emplace_back();
-        trial.settings = settings;
-        const int x = start(i % columns, columns, settings.width),
-                  y = start(i / columns, rows, settings.height);
-        trial.crop = {x, y, std::min(x + side, settings.width), std::min(y + side, settings.height)};
-    }
-    return trials;
-}
-
-/// The largest difference between what the two renderers draw, a sample per pixel.
-double try_both(const Render& single, const Render& full, std::vector<runtime::RenderRequest> trials,
-                int threads) {
-    double most = 0;
-    for (runtime::RenderRequest& trial : trials) {
-        trial.settings.samples_per_axis = 1;
-        trial.threads = threads;
-        runtime::Image a(trial.crop.x1 - trial.crop.x0, trial.crop.y1 - trial.crop.y0), b = a;
-        single(trial, a);
-        full(trial, b);
-        for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-            most = std::max(most, steps_between(a.pixels[i], b.pixels[i]));
-        }
-    }
-    return most;
-}
+constexpr double worth_a_trial = 50'000;
 
 std::optional<std::string> reason_against_float(const ir::Scene& scene,
                                                 const runtime::RenderSettings& settings) {
-    if (samples_of(settings) < worth_a_trial) {
+    const double samples = static_cast<double>(settings.width) * settings.height * settings.samples_per_axis *
+                           settings.samples_per_axis;
+    if (samples < worth_a_trial) {
         return "the picture is too small for float to save time";
     }
     return needs_double(scene);
@@ -247,20 +161,23 @@ host::Drawable make_drawable_for_8_bits(const ir::Scene& scene, const runtime::R
 
     const Stopwatch watch;
     Render full = make_renderer<double>(scene, meshes, kernels, options);
-    double steps = 0;
-    for (const int part : trial_parts) {
-        if (steps <= most_steps) {
-            const auto trials = meshes->empty() ? sparse_trial(settings, part) : block_trial(settings, part);
-            steps = std::max(steps, try_both(single, full, trials, options.threads));
-        }
-    }
-    const bool fine = steps <= most_steps;
-    drawable.precision = name_of(fine ? Precision::single : Precision::full);
-    drawable.precision_reason =
-        fmt::format("float was {:.2g} 8-bit steps off in a trial; {} are allowed", steps, most_steps);
-    drawable.render = fine ? std::move(single) : std::move(full);
+    const PrecisionTrial trial =
+        try_float(single, full, settings, {.coherent = !meshes->empty(), .threads = options.threads});
+    drawable.precision = name_of(trial.passed ? Precision::single : Precision::full);
+    drawable.precision_reason = trial.reason;
+    drawable.render = trial.passed ? std::move(single) : std::move(full);
     drawable.times_ms.emplace_back("precision", watch.milliseconds());
     return drawable;
+}
+
+PrecisionChoice choose_precision_for_8_bits(const ir::Scene& scene, const runtime::RenderSettings& settings,
+                                            const runtime::BuildOptions& options) {
+    if (const std::optional<std::string> reason = reason_against_float(scene, settings)) {
+        return {Precision::full, *reason};
+    }
+    const host::Drawable drawable = make_drawable_for_8_bits(scene, settings, options);
+    const bool single = drawable.precision == name_of(Precision::single);
+    return {single ? Precision::single : Precision::full, drawable.precision_reason};
 }
 
 } // namespace scc::compiler

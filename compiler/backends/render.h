@@ -12,9 +12,13 @@ host::Drawable make_drawable(const ir::Scene& scene, Precision precision,
                              const runtime::BuildOptions& options = {});
 
 /// The same for a picture of this size and so many samples whose file keeps 8 bits of each value: in float
-/// where that, as far as the scene's numbers and a trial with a few thousand samples tell, changes no value
-/// by more than a quarter of a step. The same scene, size and samples give the same choice.
+/// where that, as far as the scene's numbers and a trial with a few thousand samples tell (see
+/// precision_trial.h), cannot be seen. The same scene, size and samples give the same choice.
 host::Drawable make_drawable_for_8_bits(const ir::Scene& scene, const runtime::RenderSettings& settings,
                                         const runtime::BuildOptions& options);
+
+/// The choice alone.
+PrecisionChoice choose_precision_for_8_bits(const ir::Scene& scene, const runtime::RenderSettings& settings,
+                                            const runtime::BuildOptions& options);
 
 } // namespace scc::compiler

@@ -1,4 +1,5 @@
 #include "compiler/backends/cpp.h"
+#include "compiler/backends/render.h"
 #include "compiler/cli/build_report.h"
 #include "compiler/cli/commands.h"
 #include "compiler/cli/native.h"
@@ -6,7 +7,9 @@
 #include "compiler/writer.h"
 #include "lang/dump.h"
 #include "runtime/host/file.h"
+#include "runtime/host/image_file.h"
 #include "runtime/host/options.h"
+#include "runtime/host/parallel.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -30,12 +33,6 @@ struct Options {
     Emit emit = Emit::exe;
     std::optional<compiler::Precision> chosen_precision; ///< nothing: auto
 
-    /// A program may be asked for a picture that keeps 32 bits of each value, for which float is too coarse.
-    compiler::Precision precision() const { return chosen_precision.value_or(compiler::Precision::full); }
-    const char* precision_reason() const {
-        return chosen_precision ? "asked for"
-                                : "it may be asked for a picture that keeps 32 bits of each value";
-    }
     NativeOptions native;
     std::string report; ///< "text", "json" or empty
 };
@@ -54,11 +51,23 @@ Stage stage_for(Emit emit) {
     return Stage::scene;
 }
 
+/// Float under `auto` needs to be told that 8 bits of each value will do: by the scene's own file.
+compiler::PrecisionChoice choose_precision(const compiler::ir::Scene& scene, const Options& options) {
+    if (options.chosen_precision) {
+        return {*options.chosen_precision, "asked for"};
+    }
+    if (!host::keeps_8_bits(scene.file, 8)) {
+        return {compiler::Precision::full, "the scene names no `file` that keeps but 8 bits of each value"};
+    }
+    return compiler::choose_precision_for_8_bits(scene, scene.settings, {.threads = host::core_count()});
+}
+
 void emit_source(const Loaded& loaded, const Options& options) {
     const std::string values_name =
         compiler::Identifiers("scene_").make(fs::path(options.output).stem().string()) + ".values";
     const compiler::CppProgram program =
-        emit_cpp(loaded.scene, options.precision(), compiler::Numbers::in_code, values_name);
+        emit_cpp(loaded.scene, choose_precision(loaded.scene, options).precision, compiler::Numbers::in_code,
+                 values_name);
     if (!program.values.empty()) {
         if (options.output == "-") {
             throw host::UsageError(
@@ -73,12 +82,12 @@ void emit_program(const Loaded& loaded, const Options& options) {
     if (options.output == "-") {
         throw host::UsageError("a program cannot go to standard output: give `-o` a file name");
     }
-    compile_native(emit_cpp(loaded.scene, options.precision(), compiler::Numbers::as_values), options.native,
+    const compiler::PrecisionChoice precision = choose_precision(loaded.scene, options);
+    compile_native(emit_cpp(loaded.scene, precision.precision, compiler::Numbers::as_values), options.native,
                    options.output);
     if (!options.report.empty()) {
         const ReportKind kind = options.report == "json" ? ReportKind::json : ReportKind::text;
-        write_result("-", build_report(loaded, {options.precision(), options.precision_reason()},
-                                       options.native, options.output, kind));
+        write_result("-", build_report(loaded, precision, options.native, options.output, kind));
     }
 }
 
@@ -122,8 +131,8 @@ void add_build(CLI::App& app, Run& selected) {
         ->type_name("PROG");
     add_precision_option(
         *command, options->chosen_precision,
-        "of the arithmetic; auto (default) is double, as the program may be asked for a 32-bit "
-        "picture");
+        "of the arithmetic; auto (default): float where the scene names an 8-bit `file` that does not show "
+        "it, else double");
     static const std::map<std::string, Emit> kinds{{"exe", Emit::exe},
                                                    {"cpp", Emit::cpp},
                                                    {"ir", Emit::ir},

@@ -127,7 +127,8 @@ Executable everything_program(const Loaded& loaded, compiler::Precision precisio
     return inspect_executable((folder / "everything").string());
 }
 
-std::string as_text(const Facts& facts, const std::string& program, const ReportPrecision& precision) {
+std::string as_text(const Facts& facts, const std::string& program,
+                    const compiler::PrecisionChoice& precision) {
     std::string text =
         fmt::format("{}: {} ({})\n\nkept\n", program, name_of(precision.precision), precision.reason);
     for (const Feature& feature : facts.kept) {
@@ -150,7 +151,8 @@ std::string as_text(const Facts& facts, const std::string& program, const Report
     return text;
 }
 
-std::string as_json(const Facts& facts, const std::string& program, const ReportPrecision& precision) {
+std::string as_json(const Facts& facts, const std::string& program,
+                    const compiler::PrecisionChoice& precision) {
     nlohmann::ordered_json kept = nlohmann::ordered_json::array();
     for (const Feature& feature : facts.kept) {
         kept.push_back({{"feature", feature.name}, {"asked_for_at", feature.place}});
@@ -174,8 +176,8 @@ std::string as_json(const Facts& facts, const std::string& program, const Report
 
 } // namespace
 
-std::string build_report(const Loaded& loaded, const ReportPrecision& precision, const NativeOptions& options,
-                         const std::string& program, ReportKind kind) {
+std::string build_report(const Loaded& loaded, const compiler::PrecisionChoice& precision,
+                         const NativeOptions& options, const std::string& program, ReportKind kind) {
     const validation::ScratchFolder folder;
     Facts facts;
     add_features(facts, loaded);

@@ -10,14 +10,9 @@ namespace scc::cli {
 
 enum class ReportKind { text, json };
 
-struct ReportPrecision {
-    compiler::Precision precision;
-    const char* reason;
-};
-
 /// What a built program holds and leaves out, and what that saves: measured on this scene, beside the generic
 /// renderer and beside a program that leaves nothing out.
-std::string build_report(const Loaded& loaded, const ReportPrecision& precision, const NativeOptions& options,
-                         const std::string& program, ReportKind kind);
+std::string build_report(const Loaded& loaded, const compiler::PrecisionChoice& precision,
+                         const NativeOptions& options, const std::string& program, ReportKind kind);
 
 } // namespace scc::cli

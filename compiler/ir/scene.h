@@ -60,6 +60,7 @@ struct Scene {
     lang::Span camera_span;
     runtime::Rgb<double> ambient{0.1, 0.1, 0.1}; ///< Ia
     runtime::Rgb<double> background{0, 0, 0};
+    std::string file; ///< that the scene names for its picture, or empty
     runtime::RenderSettings settings;
     runtime::SceneTraits traits; ///< by the pass derive_traits
 };

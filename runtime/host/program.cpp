@@ -2,6 +2,7 @@
 
 #include "runtime/host/draw.h"
 #include "runtime/host/file.h"
+#include "runtime/host/image_file.h"
 #include "runtime/host/options.h"
 
 #include <chrono>
@@ -68,7 +69,16 @@ int run_program(const Program& program, int argc, char** argv) {
                 std::to_string(settings.width) + " x " + std::to_string(settings.height) + ", " +
                 std::to_string(settings.samples_per_axis * settings.samples_per_axis) +
                 " samples per pixel.");
-        return options ? draw(drawable, *options) : exit_fine;
+        if (!options) {
+            return exit_fine;
+        }
+        if (drawable.precision == "float" && !keeps_8_bits(options->output, options->bits)) {
+            std::fputs(
+                "note: this program calculates in float and this file could hold more digits; `scc build "
+                "--precision double` makes a program that has them\n",
+                stderr);
+        }
+        return draw(drawable, *options);
     } catch (const UsageError& error) {
         return fail(exit_usage, error.what());
     } catch (const FileError& error) {

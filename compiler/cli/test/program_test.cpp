@@ -74,6 +74,28 @@ TEST_F(BuiltProgram, HoldsNoCodeForWhatItsSceneLacks) {
     }
 }
 
+// Only the scene can say that its picture keeps no more than 8 bits of each value.
+TEST_F(BuiltProgram, IsInFloatForAnEightBitFileOfItsScene) {
+    const auto precision = [&](const std::string& render, std::vector<std::string> options = {}) {
+        options.insert(options.begin(), "--report=json");
+        write("s.scn", spheres_only + render);
+        std::vector<std::string> arguments{"build", "s.scn", "-o", "prog"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const auto built = scc(arguments);
+        EXPECT_TRUE(built.ok()) << built.err;
+        const auto report = nlohmann::json::parse(built.out);
+        return std::string(report["precision"]) + ": " + std::string(report["precision_reason"]);
+    };
+    EXPECT_TRUE(has(precision("render { file = \"s.png\" }"), "float: float was "));
+    const auto drawn = start(path("prog"), {"-o", "s.exr", "--size", "20x20"});
+    EXPECT_TRUE(drawn.ok());
+    EXPECT_TRUE(has(drawn.err, "note: this program calculates in float")) << drawn.err;
+    EXPECT_EQ(start(path("prog"), {"-o", "s.png", "--size", "20x20"}).err, "");
+    EXPECT_TRUE(has(precision("render { file = \"s.exr\" }"), "double: the scene names no `file`"));
+    EXPECT_TRUE(
+        has(precision("render { file = \"s.png\" }", {"--precision", "double"}), "double: asked for"));
+}
+
 TEST_F(BuiltProgram, HoldsTheCodeForWhatItsSceneHas) {
     write("m.obj", mesh_text);
     symbols(spheres_only, {"--precision", "float"});
