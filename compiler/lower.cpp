@@ -83,6 +83,9 @@ bool ObjectLowering::set_field(Owner& shape, const runtime::Field<Owner, T>& fie
     T& member = shape.*field.member;
     if constexpr (requires { assign(member, given->value); }) {
         assign(member, given->value);
+        if constexpr (std::is_same_v<T, runtime::Vec3<double>>) {
+            member = field.rule == runtime::Rule::direction ? normalize(member) : member;
+        }
     } else {
         const auto& list = *std::get<lang::ListPtr>(given->value.v);
         if (list.size() != member.size()) {

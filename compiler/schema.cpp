@@ -62,6 +62,7 @@ Limits limits_of(runtime::Rule rule) {
     case runtime::Rule::non_negative:
         return non_negative;
     case runtime::Rule::nonzero_vector:
+    case runtime::Rule::direction:
         return {.nonzero_vector = true, .rule = "a direction has a length"};
     }
     return {};

@@ -22,6 +22,18 @@ struct Bounds {
     constexpr Vec3<R> center() const { return min * R(0.5) + max * R(0.5); }
 };
 
+template <class R>
+struct Ball {
+    Vec3<R> center;
+    R radius = 0;
+};
+
+template <class R>
+constexpr Ball<R> ball_around(const Bounds<R>& box) {
+    const Vec3<R> center = box.center();
+    return {center, length(maximum(box.max - center, center - box.min))};
+}
+
 /// A box around a transformed box, with room for the rounding on the way.
 template <class R>
 constexpr Bounds<R> transform_bounds(const Affine<R>& a, const Bounds<R>& b) {

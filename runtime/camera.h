@@ -23,14 +23,22 @@ struct Camera {
     R shift_x = 0, shift_y = 0;             ///< of the window, in window heights
 };
 
-/// The ray through a point of the picture of the given size, in pixels from its top left corner. The
-/// projection is an argument of its own, so that a scene that knows it can pass a constant.
+/// Where a point of the picture lies in the window, in half window heights from its middle to the right or
+/// up. The picture's size and `column` and `row`, from its top left corner, are in pixels.
 template <class L, class R>
-constexpr Ray<L> camera_ray(const Camera<R>& camera, Projection projection, const L& column, const L& row,
-                            int width, int height) {
-    const L w = L(static_cast<R>(width)), h = L(static_cast<R>(height));
-    const L x = (2 * column - w) / h + L(2 * camera.shift_x);
-    const L y = (h - 2 * row) / h + L(2 * camera.shift_y);
+constexpr L window_x(const Camera<R>& camera, const L& column, int width, int height) {
+    return (2 * column - L(static_cast<R>(width))) / L(static_cast<R>(height)) + L(2 * camera.shift_x);
+}
+template <class L, class R>
+constexpr L window_y(const Camera<R>& camera, const L& row, int height) {
+    const L h = L(static_cast<R>(height));
+    return (h - 2 * row) / h + L(2 * camera.shift_y);
+}
+
+/// The ray through a point of the window (see window_x and window_y). The projection is an argument of its own, so that a scene that
+/// knows it can pass a constant.
+template <class L, class R>
+constexpr Ray<L> camera_ray(const Camera<R>& camera, Projection projection, const L& x, const L& y) {
     const Vec3<L> offset = (lanes<L>(camera.u) * x + lanes<L>(camera.v) * y) * L(camera.half_height);
     if (projection == Projection::perspective) {
         return {lanes<L>(camera.eye), offset - lanes<L>(camera.n)};

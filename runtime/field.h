@@ -5,7 +5,13 @@
 namespace scc::runtime {
 
 /// What values an author may give a field.
-enum class Rule { any, positive, non_negative, nonzero_vector };
+enum class Rule {
+    any,
+    positive,
+    non_negative,
+    nonzero_vector,
+    direction ///< any vector but 0; the front end makes it a unit vector
+};
 
 /// Describes one author-visible member of a shape: the front end's schema, the IR's text and the generated
 /// C++ are all derived from it. The default value is the member's initialiser. A shape declares its members

@@ -17,12 +17,23 @@ inline constexpr bool is_bounded = is_mesh<Shape> || requires(const Shape& s) {
     s.bounds();
 };
 
-/// A hit with what shading needs, in world space.
-template <class L>
-struct WorldSurface {
-    Surface<L> surface;
-    Vec3<L> object_point;
-};
+/// f.operator()<kind>(primitive, its index in the table of its kind) for the bounded ones, kind by kind.
+template <class S, class F>
+void for_each_bounded(const S& scene, F&& f) {
+    const auto one = [&]<std::uint32_t kind>(std::integral_constant<std::uint32_t, kind>) {
+        using R = typename S::Real;
+        if constexpr (uses_kind(S::traits, kind) && is_bounded<ShapeOfKind<R, kind>>) {
+            std::uint32_t index = 0;
+            for (const auto& primitive : scene.primitives(Of<PrimitiveOfKind<R, kind>>{})) {
+                f.template operator()<kind>(primitive, index++);
+            }
+        }
+    };
+    [&]<std::uint32_t... kind>(std::integer_sequence<std::uint32_t, kind...>) {
+        (one(std::integral_constant<std::uint32_t, kind>{}), ...);
+    }
+    (std::make_integer_sequence<std::uint32_t, primitive_kinds>{});
+}
 
 template <class R, class L>
 constexpr Ray<L> transform_ray(const Affine<R>& a, const Ray<L>& ray) {
@@ -83,20 +94,22 @@ Ray<L> to_object(const Placed<Shape, R>& primitive, const Ray<L>& ray) {
     return transform_ray(primitive.object_from_world, ray);
 }
 
-/// The surface where the lanes in `needed` have hit this primitive; the others get anything.
+/// The surface, in world space, where the lanes in `needed` have hit this primitive; the others get anything.
+/// `object_point`: the same point as the shape sees it.
 template <class S, class Shape, class L>
-WorldSurface<L> surface_of(const S& scene, const Bare<Shape>& primitive, const Ray<L>& ray,
-                           const ShapeHit<L>& hit, const MaskOf<L>& needed) {
+Surface<L> surface_of(const S& scene, const Bare<Shape>& primitive, const Ray<L>& ray, const ShapeHit<L>& hit,
+                      const MaskOf<L>& needed, Vec3<L>& object_point) {
     const Surface<L> surface = detail::shape_surface(scene, primitive.shape, ray, hit, needed);
-    return {surface, surface.point};
+    object_point = surface.point;
+    return surface;
 }
 template <class S, class Shape, class R, class L>
-WorldSurface<L> surface_of(const S& scene, const Placed<Shape, R>& primitive, const Ray<L>& ray,
-                           const ShapeHit<L>& hit, const MaskOf<L>& needed) {
+Surface<L> surface_of(const S& scene, const Placed<Shape, R>& primitive, const Ray<L>& ray,
+                      const ShapeHit<L>& hit, const MaskOf<L>& needed, Vec3<L>& object_point) {
     const Surface<L> object = detail::shape_surface(
         scene, primitive.shape, transform_ray(primitive.object_from_world, ray), hit, needed);
-    return {transform_surface(primitive.world_from_object, primitive.object_from_world, object),
-            object.point};
+    object_point = object.point;
+    return transform_surface(primitive.world_from_object, primitive.object_from_world, object);
 }
 
 template <class S, class Shape>

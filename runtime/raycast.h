@@ -125,14 +125,15 @@ bool keep_blocked(Ray<L>& ray, MaskOf<L>& blocked, const ShapeHit<L>& found) {
 }
 
 /// The search of one pack through a scene without hierarchies: by value, so that what is known stays in
-/// registers.
-template <bool AnyHit, class S, class L>
-auto search_tables(const S& scene, Ray<L> ray, Candidates candidates) {
+/// registers. Where all primitives are candidates, no branches keep the compiler from sharing what their
+/// tests have in common.
+template <bool AnyHit, bool All, class S, class L>
+auto search_tables(const S& scene, Ray<L> ray, [[maybe_unused]] Candidates candidates) {
     std::conditional_t<AnyHit, MaskOf<L>, Hit<L>> result{};
     any_of_kinds<S>([&]<std::uint32_t kind>() {
         const auto& table = scene.primitives(Of<PrimitiveOfKind<typename S::Real, kind>>{});
         return any_of_table(table, [&](const auto& primitive, [[maybe_unused]] std::uint32_t index) {
-            if constexpr (is_bounded<ShapeOfKind<typename S::Real, kind>>) {
+            if constexpr (!All && is_bounded<ShapeOfKind<typename S::Real, kind>>) {
                 if (!next_is_candidate(candidates)) {
                     return false;
                 }
@@ -366,7 +367,9 @@ void closest_hits(const S& scene, std::span<Ray<L>> rays, [[maybe_unused]] Apex 
         detail::Search<false, S, L, N>(scene, rays, apex, hits, candidates).run();
     } else {
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            hits[i] = detail::search_tables<false>(scene, rays[i], candidates);
+            hits[i] = candidates == all_candidates
+                          ? detail::search_tables<false, true>(scene, rays[i], candidates)
+                          : detail::search_tables<false, false>(scene, rays[i], candidates);
         }
     }
 }
@@ -386,9 +389,15 @@ void any_hits(const S& scene, std::span<Ray<L>> rays, [[maybe_unused]] Apex apex
         detail::Search<true, S, L, N>(scene, rays, apex, blocked).run();
     } else {
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            blocked[i] = detail::search_tables<true>(scene, rays[i], all_candidates);
+            blocked[i] = detail::search_tables<true, true>(scene, rays[i], all_candidates);
         }
     }
+}
+/// The same for one pack in a scene without hierarchies, which meets no bounded primitives but the
+/// candidates.
+template <SceneModel S, class L>
+requires(!has_hierarchy<S>) MaskOf<L> any_hit(const S& scene, const Ray<L>& ray, Candidates candidates) {
+    return detail::search_tables<true, false>(scene, ray, candidates);
 }
 template <SceneModel S, class L>
 MaskOf<L> any_hit(const S& scene, Ray<L> ray) {

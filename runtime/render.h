@@ -79,93 +79,107 @@ private:
 
     template <class AfterTile>
     void draw_tiles(RayCounts& rays, AfterTile&& after_tile) {
-        StripPainter painter(*this, rays);
+        TilePainter painter(*this, rays);
         while (!stopped_) {
             const int tile = next_++;
             if (tile >= tiles_) {
                 return;
             }
-            const int x0 = tile % tiles_across_ * tile_size, y0 = tile / tiles_across_ * tile_size;
-            const Candidates candidates = candidates_in_tile(x0, y0);
-            for (int y = y0; y < std::min(y0 + tile_size, height_); y += block_height) {
-                painter.paint(x0, y, candidates);
-            }
+            painter.paint(tile % tiles_across_ * tile_size, tile / tiles_across_ * tile_size);
             ++done_;
             after_tile();
         }
     }
 
-    /// Draws strips of tile_size x block_height pixels, each with n x n samples at the centres of sub-pixels.
-    /// Blocks of neighbouring samples, not of pixels, are traced together: with n x n samples in a pixel
-    /// these run more alike, but n x n blocks have as many samples as a block of pixels has.
-    class StripPainter {
+    /// Draws tiles, strip by strip of block_height pixels, each pixel with n x n samples at the centres of
+    /// sub-pixels. Blocks of neighbouring samples, not of pixels, are traced together: with n x n samples in
+    /// a pixel these run more alike, but n x n blocks have as many samples as a block of pixels has.
+    class TilePainter {
     public:
-        StripPainter(const Renderer& renderer, RayCounts& rays)
+        TilePainter(const Renderer& renderer, RayCounts& rays)
             : renderer_(renderer), shader_(renderer.scene_, renderer.request_.settings, rays), rays_(rays),
               n_(renderer.request_.settings.samples_per_axis),
-              samples_across_(static_cast<std::size_t>(n_ * tile_size)) {
+              samples_across_(static_cast<std::size_t>(n_ * tile_size)),
+              columns_(static_cast<std::size_t>(n_ * tile_size / pack_width)),
+              rows_(static_cast<std::size_t>(n_ * tile_size / pack_height)) {
             for (std::vector<R>& channel : samples_) {
                 channel.resize(samples_across_ * static_cast<std::size_t>(n_ * block_height));
-            }
-            for (int first = 0; first < n_ * tile_size; first += pack_width) {
-                columns_.push_back(positions(first, [](int lane) { return lane % pack_width; }));
-            }
-            for (int first = 0; first < n_ * block_height; first += pack_height) {
-                rows_.push_back(positions(first, [](int lane) { return lane / pack_width; }));
             }
         }
 
         /// The pixels from (x, y) of the crop on; those outside the crop are left out.
-        void paint(int x, int y, Candidates candidates) {
-            const Crop& crop = renderer_.request_.crop;
-            const int rows = std::min(block_height, renderer_.height_ - y);
+        void paint(int x, int y) {
+            place(x, y);
+            const int bottom = std::min(y + tile_size, renderer_.height_);
             const int columns = std::min(tile_size, renderer_.width_ - x);
-            for (int j = 0; j < n_ * rows; j += block_height) {
-                for (int i = 0; i < n_ * columns; i += block_width) {
-                    trace(crop.x0 + x, crop.y0 + y, i, j, candidates);
+            for (int top = y; top < bottom; top += block_height) {
+                const int rows = std::min(block_height, bottom - top);
+                for (int j = 0; j < n_ * rows; j += block_height) {
+                    for (int i = 0; i < n_ * columns; i += block_width) {
+                        trace(i, j, n_ * (top - y));
+                    }
                 }
-            }
-            for (int row = 0; row < rows; ++row) {
-                store(row * n_, columns, renderer_.image_.at(x, y + row));
+                for (int row = 0; row < rows; ++row) {
+                    store(row * n_, columns, renderer_.image_.at(x, top + row));
+                }
             }
         }
 
     private:
-        /// Where a pack's samples are in one direction, in pixels of the strip: whole ones, and the rest,
-        /// which is added last so that rounding does not depend on where the strip begins.
+        /// A pack's samples in one direction.
         struct Positions {
-            L pixel, within;
-            L from(int start) const { return (L(static_cast<R>(start)) + pixel) + within; }
+            L window;         ///< see window_x
+            MaskOf<L> inside; ///< the crop
         };
+
+        void place(int x, int y) {
+            const Renderer& r = renderer_;
+            const Crop& crop = r.request_.crop;
+            const int width = r.request_.settings.width, height = r.request_.settings.height;
+            for (std::size_t i = 0; i < columns_.size(); ++i) {
+                const L column = samples_from(crop.x0 + x, static_cast<int>(i) * pack_width,
+                                              [](int lane) { return lane % pack_width; });
+                columns_[i] = {window_x(r.scene_.camera, column, width, height),
+                               column < L(static_cast<R>(crop.x1))};
+            }
+            for (std::size_t j = 0; j < rows_.size(); ++j) {
+                const L row = samples_from(crop.y0 + y, static_cast<int>(j) * pack_height,
+                                           [](int lane) { return lane / pack_width; });
+                rows_[j] = {window_y(r.scene_.camera, row, height), row < L(static_cast<R>(crop.y1))};
+            }
+            candidates_ = r.candidates_in_tile(x, y);
+        }
+        /// Where the samples from `first` on of the pixels from `pixel` on lie. What is no whole pixel is
+        /// added last, so that rounding does not depend on where the tile begins.
         template <class Offset>
-        Positions positions(int first, Offset&& offset) const {
-            Positions result{};
+        L samples_from(int pixel, int first, Offset&& offset) const {
+            L whole, within;
             for (int lane = 0; lane < lane_count<L>; ++lane) {
                 const int sample = first + offset(lane);
-                set_lane(result.pixel, lane, static_cast<R>(sample / n_));
-                set_lane(result.within, lane, (static_cast<R>(sample % n_) + R(0.5)) / static_cast<R>(n_));
+                set_lane(whole, lane, static_cast<R>(pixel + sample / n_));
+                set_lane(within, lane, (static_cast<R>(sample % n_) + R(0.5)) / static_cast<R>(n_));
             }
-            return result;
+            return whole + within;
         }
 
-        /// Samples one block, from (i, j) of the samples of the pixels at (x, y) of the picture.
-        void trace(int x, int y, int i, int j, Candidates candidates) {
-            const Crop& crop = renderer_.request_.crop;
+        /// Samples one block, from (i, j) of the strip's samples, whose first row is `above` of the tile's.
+        void trace(int i, int j, int above) {
+            const Projection projection = renderer_.projection();
             std::array<Ray<L>, packs> rays;
             std::array<MaskOf<L>, packs> inside;
             std::array<Rgb<L>, packs> colors;
             for (int p = 0; p < packs; ++p) {
                 const int pack_i = i + p % packs_across * pack_width,
-                          pack_j = j + p / packs_across * pack_height;
-                const L column = columns_[static_cast<std::size_t>(pack_i / pack_width)].from(x);
-                const L row = rows_[static_cast<std::size_t>(pack_j / pack_height)].from(y);
+                          pack_j = above + j + p / packs_across * pack_height;
+                const Positions& column = columns_[static_cast<std::size_t>(pack_i / pack_width)];
+                const Positions& row = rows_[static_cast<std::size_t>(pack_j / pack_height)];
                 const auto pack = static_cast<std::size_t>(p);
-                inside[pack] = (column < L(static_cast<R>(crop.x1))) & (row < L(static_cast<R>(crop.y1)));
-                rays[pack] = renderer_.ray_through(column, row);
+                inside[pack] = column.inside & row.inside;
+                rays[pack] = camera_ray(renderer_.scene_.camera, projection, column.window, row.window);
                 rays_.primary += count_lanes(inside[pack]);
             }
-            const Apex apex = renderer_.projection() == Projection::perspective ? Apex::origin : Apex::none;
-            shader_.radiance(rays, apex, candidates, inside, colors);
+            shader_.radiance(rays, projection == Projection::perspective ? Apex::origin : Apex::none,
+                             candidates_, inside, colors);
             for (int p = 0; p < packs; ++p) {
                 const int pack_i = i + p % packs_across * pack_width,
                           pack_j = j + p / packs_across * pack_height;
@@ -200,8 +214,7 @@ private:
         /// + 0 makes -0 positive, so that a term left out and a term of 0 give the same bits.
         template <class Value>
         void store(int columns, float* pixel, Value&& value) const {
-            const int stride = renderer_.image_.channels;
-            for (int column = 0; column < columns; ++column, pixel += stride) {
+            for (int column = 0; column < columns; ++column, pixel += 3) {
                 pixel[0] = static_cast<float>(value(0, column)) + 0.0F;
                 pixel[1] = static_cast<float>(value(1, column)) + 0.0F;
                 pixel[2] = static_cast<float>(value(2, column)) + 0.0F;
@@ -222,9 +235,10 @@ private:
         const Shader<S, L> shader_;
         RayCounts& rays_;
         int n_;
-        std::vector<Positions> columns_, rows_; ///< of the packs across and down
-        std::size_t samples_across_;
-        std::array<std::vector<R>, 3> samples_; ///< red, green, blue
+        std::size_t samples_across_;            ///< the tile
+        std::vector<Positions> columns_, rows_; ///< of the tile's packs across and down
+        Candidates candidates_ = all_candidates;
+        std::array<std::vector<R>, 3> samples_; ///< of a strip: red, green, blue
     };
 
     bool is_searched_by_hierarchy() const {
@@ -239,10 +253,16 @@ private:
         if (boxes_.empty()) {
             return all_candidates;
         }
-        const R left = static_cast<R>(request_.crop.x0 + x - 1), right = left + R(tile_size + 2);
-        const R top = static_cast<R>(request_.crop.y0 + y - 1), bottom = top + R(tile_size + 2);
-        return candidates_in(boxes_, ViewPart<R>({ray_through(left, top), ray_through(right, top),
-                                                  ray_through(right, bottom), ray_through(left, bottom)}));
+        const int width = request_.settings.width, height = request_.settings.height;
+        const auto corner = [&](int column, int row) {
+            return camera_ray(
+                scene_.camera, projection(),
+                window_x(scene_.camera, static_cast<R>(request_.crop.x0 + column), width, height),
+                window_y(scene_.camera, static_cast<R>(request_.crop.y0 + row), height));
+        };
+        const int left = x - 1, right = x + tile_size + 1, top = y - 1, bottom = y + tile_size + 1;
+        return candidates_in(boxes_, ViewPart<R>({corner(left, top), corner(right, top),
+                                                  corner(right, bottom), corner(left, bottom)}));
     }
 
     Projection projection() const {
@@ -250,12 +270,6 @@ private:
                : !S::traits.perspective ? Projection::orthographic
                                         : scene_.camera.projection;
     }
-    template <class Lane>
-    Ray<Lane> ray_through(const Lane& column, const Lane& row) const {
-        return camera_ray(scene_.camera, projection(), column, row, request_.settings.width,
-                          request_.settings.height);
-    }
-
     void report_progress() {
         if (!request_.progress) {
             return;
@@ -283,7 +297,7 @@ private:
 
 } // namespace detail
 
-/// Draws the crop into the image, which has its size and at least 3 channels. The pixels depend on neither
+/// Draws the crop into the image, which has its size and 3 channels. The pixels depend on neither
 /// the crop nor the number of threads nor the lanes that a register holds. The calling thread draws too, and
 /// it alone calls `progress`.
 template <class L, SceneModel S>

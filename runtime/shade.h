@@ -1,11 +1,13 @@
 #pragma once
 
+#include "runtime/accel/occluders.h"
 #include "runtime/illumination.h"
 #include "runtime/raycast.h"
 #include "runtime/render_request.h"
 
 #include <array>
 #include <span>
+#include <vector>
 
 /// The colour that a ray sees: L7 to L9, L14, L15.
 namespace scc::runtime {
@@ -15,17 +17,18 @@ namespace detail {
 /// Constant tables of lights up to this size are unrolled.
 inline constexpr std::size_t unrolled_lights = 4;
 
+/// f(light, its index) for each.
 template <class Table, class F>
 void for_each_light(const Table& table, F&& f) {
     constexpr std::size_t size = constant_size<Table>;
     if constexpr (size > 0 && size <= unrolled_lights) {
         [&]<std::size_t... i>(std::index_sequence<i...>) {
-            (f(table[i]), ...);
+            (f(table[i], i), ...);
         }
         (std::make_index_sequence<size>{});
     } else {
-        for (const auto& light : table) {
-            f(light);
+        for (std::size_t i = 0; i < table.size(); ++i) {
+            f(table[i], i);
         }
     }
 }
@@ -39,17 +42,16 @@ MaskOf<L> is_black(const Rgb<L>& c) {
 template <class L>
 struct Encounter {
     Surface<L> surface;
-    SurfacePoint<L> point;
-    Vec3<L> normal;    ///< m: shading normal that faces the viewer
-    Vec3<L> to_viewer; ///< v, unit
-    IndexOf<L> material{0U};
+    SurfacePoint<L> point; ///< only where the scene has functions
+    Vec3<L> normal;        ///< m: shading normal that faces the viewer
+    IndexOf<L> material;
 };
 
 /// A material's fields at a point.
 template <class L>
 struct Reflectances {
     Rgb<L> ambient, diffuse, specular, emission, reflect;
-    L shininess{1};
+    L shininess;
 };
 
 /// Strictly between: what the light itself lies on does not shadow it, up to the rounding of t.
@@ -65,7 +67,17 @@ public:
     using Mask = MaskOf<L>;
 
     Shader(const S& scene, const RenderSettings& settings, RayCounts& counts)
-        : scene_(scene), depth_(settings.depth), shadows_(settings.shadows), counts_(counts) {}
+        : scene_(scene), depth_(settings.depth), shadows_(settings.shadows), counts_(counts) {
+        if constexpr (S::traits.shadows && !has_hierarchy<S>) {
+            const auto balls = primitive_balls(scene);
+            for (const auto& light : scene.point_lights) {
+                point_occluders_.emplace_back(balls, light);
+            }
+            for (const auto& light : scene.directional_lights) {
+                directional_occluders_.emplace_back(balls, light);
+            }
+        }
+    }
 
     /// What comes from along each ray of the active lanes, which meet but the candidates first. Mirrors are
     /// followed one after the other, each weighing what is behind it; after the last bounce a mirror shows
@@ -92,14 +104,14 @@ public:
                 pack.active = pack.active & !missed;
                 if (any(pack.active)) {
                     goes_on = true;
-                    pack.at = encounter(rays[i], hits[i], pack.active);
-                    pack.material = reflectances(pack.at, pack.active);
+                    meet(rays[i], hits[i], pack);
+                    look_up(pack);
                 }
             }
             if (!goes_on) {
                 return;
             }
-            illuminate(packs);
+            illuminate(packs, rays);
             goes_on = false;
             for (std::size_t i = 0; i < packs.count; ++i) {
                 Pack& pack = packs[i];
@@ -147,14 +159,15 @@ private:
         Pack& operator[](std::size_t i) { return list[i]; }
     };
 
-    /// The material is chosen by the side of the geometric normal that the ray is on. The shading normal is
-    /// turned to the viewer by its own sign, so that an interpolated one that already points away at a
-    /// silhouette shades as in POV-Ray.
-    Encounter<L> encounter(const Ray<L>& ray, const Hit<L>& hit, const Mask& active) const {
-        Encounter<L> result;
-        for_each_primitive(scene_, hit, active, [&](const auto& primitive, const Mask& here) {
-            const WorldSurface<L> world = surface_of(scene_, primitive, ray, hit.shape, here);
-            const Surface<L>& surface = world.surface;
+    /// Fills in `pack.at`. The material is chosen by the side of the geometric normal that the ray is on. The
+    /// shading normal is turned to the viewer by its own sign, so that an interpolated one that already
+    /// points away at a silhouette shades as in POV-Ray.
+    void meet(const Ray<L>& ray, const Hit<L>& hit, Pack& pack) const {
+        Encounter<L>& at = pack.at;
+        bool first = true;
+        for_each_primitive(scene_, hit, pack.active, [&](const auto& primitive, const Mask& here) {
+            Vec3<L> object_point;
+            const Surface<L> surface = surface_of(scene_, primitive, ray, hit.shape, here, object_point);
             const Mask back = dot(surface.normal, ray.dir) > 0;
             const Vec3<L> normal = choose(dot(surface.shading_normal, ray.dir) > 0, -surface.shading_normal,
                                           surface.shading_normal);
@@ -162,24 +175,27 @@ private:
             using Index = IndexOf<L>;
             const Index material = S::traits.two_sided ? choose(back, Index(sides.back), Index(sides.front))
                                                        : Index(sides.front);
-            if (all(here)) {
-                result.surface = surface;
-                result.point.p = world.object_point;
-                result.normal = normal;
-                result.material = material;
-                return;
+            // Value by value, since whole structures would be copied through memory.
+            put(first, here, surface.point, at.surface.point);
+            put(first, here, surface.error, at.surface.error);
+            put(first, here, surface.normal, at.surface.normal);
+            put(first, here, normal, at.normal);
+            put(first, here, material, at.material);
+            if constexpr (S::traits.functions) {
+                put(first, here, object_point, at.point.p);
             }
-            result.surface.point = choose(here, surface.point, result.surface.point);
-            result.surface.error = choose(here, surface.error, result.surface.error);
-            result.surface.normal = choose(here, surface.normal, result.surface.normal);
-            result.point.p = choose(here, world.object_point, result.point.p);
-            result.normal = choose(here, normal, result.normal);
-            result.material = choose(here, material, result.material);
+            first = false;
         });
-        result.point.world = result.surface.point;
-        result.point.n = result.surface.normal;
-        result.to_viewer = -normalize(ray.dir);
-        return result;
+        if constexpr (S::traits.functions) {
+            at.point.world = at.surface.point;
+            at.point.n = at.surface.normal;
+        }
+    }
+    /// What the first group of lanes has may stand in the others too, whose turn comes later or which take
+    /// no part.
+    template <class T>
+    static void put(bool first, const Mask& here, const T& value, T& to) {
+        to = first ? value : choose(here, value, to);
     }
 
     Rgb<L> value(const Varying<Rgb<R>>& field, const SurfacePoint<L>& point) const {
@@ -199,30 +215,34 @@ private:
         return L(field.value);
     }
 
-    Reflectances<L> reflectances(const Encounter<L>& at, Mask among) const {
-        Reflectances<L> result;
-        while (any(among)) {
+    /// Fills in `pack.material`.
+    void look_up(Pack& pack) const {
+        const Encounter<L>& at = pack.at;
+        Reflectances<L>& result = pack.material;
+        bool first = true;
+        Mask among = pack.active;
+        do {
             const std::uint32_t index = lane(at.material, first_lane(among));
             const Mask here = among & (at.material == IndexOf<L>(index));
             const Phong<R>& material = scene_.materials[index];
-            result.ambient = choose(here, value(material.ambient, at.point), result.ambient);
-            result.diffuse = choose(here, value(material.diffuse, at.point), result.diffuse);
+            put(first, here, value(material.ambient, at.point), result.ambient);
+            put(first, here, value(material.diffuse, at.point), result.diffuse);
             if constexpr (S::traits.emission) {
-                result.emission = choose(here, value(material.emission, at.point), result.emission);
+                put(first, here, value(material.emission, at.point), result.emission);
             }
             if constexpr (S::traits.specular) {
-                result.specular = choose(here, value(material.specular, at.point), result.specular);
-                result.shininess = choose(here, value(material.shininess, at.point), result.shininess);
+                put(first, here, value(material.specular, at.point), result.specular);
+                put(first, here, value(material.shininess, at.point), result.shininess);
             }
             if constexpr (S::traits.reflection) {
-                result.reflect = choose(here, value(material.reflect, at.point), result.reflect);
+                put(first, here, value(material.reflect, at.point), result.reflect);
             }
+            first = false;
             among = among & !here;
-        }
-        return result;
+        } while (any(among));
     }
 
-    void illuminate(Packs& packs) const {
+    void illuminate(Packs& packs, const std::array<Ray<L>, N>& rays) const {
         for (std::size_t i = 0; i < packs.count; ++i) {
             Pack& pack = packs[i];
             if (none(pack.active)) {
@@ -233,7 +253,7 @@ private:
                 pack.light = pack.light + pack.material.emission;
             }
         }
-        const auto add_light = [&](const auto& light) { add(light, packs); };
+        const auto add_light = [&](const auto& light, std::size_t index) { add(light, index, packs, rays); };
         if constexpr (S::traits.point_lights) {
             for_each_light(scene_.point_lights, add_light);
         }
@@ -243,7 +263,7 @@ private:
     }
 
     template <class Light>
-    void add(const Light& light, Packs& packs) const {
+    void add(const Light& light, std::size_t index, Packs& packs, const std::array<Ray<L>, N>& rays) const {
         std::array<LightAt<L>, N> seen;
         std::array<L, N> cosine;
         std::array<Mask, N> lit;
@@ -261,16 +281,17 @@ private:
         if (!any_lit) {
             return;
         }
-        take_shadowed(light, packs, lit);
+        take_shadowed(light, index, packs, lit);
         for (std::size_t i = 0; i < packs.count; ++i) {
             if (any(lit[i])) {
-                add(light, packs[i], seen[i], cosine[i], lit[i]);
+                add(light, packs[i], rays[i].dir, seen[i], cosine[i], lit[i]);
             }
         }
     }
 
     template <class Light>
-    void add(const Light& light, Pack& pack, const LightAt<L>& seen, const L& cosine, const Mask& lit) const {
+    void add(const Light& light, Pack& pack, const Vec3<L>& dir, const LightAt<L>& seen, const L& cosine,
+             const Mask& lit) const {
         const Reflectances<L>& material = pack.material;
         Rgb<L> reflected = lanes<L>(light.diffuse) * material.diffuse * cosine;
         if constexpr (S::traits.specular) {
@@ -278,7 +299,7 @@ private:
             if (any(highlit)) {
                 const Rgb<L> color = lanes<L>(S::traits.separate_specular ? light.specular : light.diffuse);
                 const L strength =
-                    highlight(pack.at.normal, seen.to_light, pack.at.to_viewer, material.shininess);
+                    highlight(pack.at.normal, seen.to_light, -normalize(dir), material.shininess);
                 reflected = choose(highlit, reflected + color * material.specular * strength, reflected);
             }
         }
@@ -292,7 +313,8 @@ private:
 
     /// L14: feelers that start off the surfaces, for the lit lanes.
     template <class Light>
-    void take_shadowed(const Light& light, const Packs& packs, std::array<Mask, N>& lit) const {
+    void take_shadowed(const Light& light, [[maybe_unused]] std::size_t index, const Packs& packs,
+                       std::array<Mask, N>& lit) const {
         if constexpr (S::traits.shadows) {
             if (!shadows_) {
                 return;
@@ -307,11 +329,22 @@ private:
                 }
                 rays[i].t_max = choose(lit[i], rays[i].t_max, -infinity<L>());
             }
-            any_hits<N, S, L>(scene_, rays, apex_of(light), blocked);
+            if constexpr (has_hierarchy<S>) {
+                any_hits<N, S, L>(scene_, rays, apex_of(light), blocked);
+            } else {
+                const Candidates candidates = occluders(light, index).before(rays[0], lit[0]);
+                blocked[0] = any_hit(scene_, rays[0], candidates);
+            }
             for (std::size_t i = 0; i < packs.count; ++i) {
                 lit[i] = lit[i] & !blocked[i];
             }
         }
+    }
+    const Occluders<PointLight<R>>& occluders(const PointLight<R>&, std::size_t index) const {
+        return point_occluders_[index];
+    }
+    const Occluders<DirectionalLight<R>>& occluders(const DirectionalLight<R>&, std::size_t index) const {
+        return directional_occluders_[index];
     }
     static Apex apex_of(const PointLight<R>&) { return Apex::end; }
     static Apex apex_of(const DirectionalLight<R>&) { return Apex::none; }
@@ -329,6 +362,8 @@ private:
     int depth_;
     bool shadows_;
     RayCounts& counts_;
+    std::vector<Occluders<PointLight<R>>> point_occluders_; ///< by the light's index, without a hierarchy
+    std::vector<Occluders<DirectionalLight<R>>> directional_occluders_;
 };
 
 } // namespace detail

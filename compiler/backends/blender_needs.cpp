@@ -277,7 +277,7 @@ private:
 
     static Vec3<double> foot(const runtime::Plane<double>& plane, const runtime::Affine<double>& place,
                              const Vec3<double>& eye) {
-        const Vec3<double> normal = normalize(plane.normal);
+        const Vec3<double>& normal = plane.normal;
         const Vec3<double> m = transform_normal(inverse(place), normal);
         const Vec3<double> on_plane = transform_point(place, plane.offset * normal);
         return eye - (dot(m, eye - on_plane) / dot(m, m)) * m;

@@ -63,7 +63,7 @@ bool flatten(runtime::Box<double>& b, const Affine<double>& a) {
 }
 
 bool flatten(runtime::Plane<double>& plane, const Affine<double>& a) {
-    const Vec3<double> normal = transform_normal(inverse(a), normalize(plane.normal));
+    const Vec3<double> normal = transform_normal(inverse(a), plane.normal);
     const double size = length(normal);
     plane = {normal / size, (plane.offset + dot(normal, translation_of(a))) / size};
     return true;

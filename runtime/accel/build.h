@@ -107,32 +107,16 @@ inline MeshStorage build_mesh(std::span<const float> positions, std::span<const 
     return mesh;
 }
 
-namespace detail {
-
-template <class S, std::uint32_t kind>
-void collect_bounds(const S& scene, std::vector<BoxRef>& boxes, std::vector<PrimitiveRef>& refs) {
-    using R = typename S::Real;
-    if constexpr (uses_kind(S::traits, kind) && is_bounded<ShapeOfKind<R, kind>>) {
-        const auto& table = scene.primitives(Of<PrimitiveOfKind<R, kind>>{});
-        for (std::size_t i = 0; i < table.size(); ++i) {
-            boxes.push_back(
-                box_ref(round_outwards(bounds_of(scene, table[i])), static_cast<std::uint32_t>(refs.size())));
-            refs.push_back({kind, static_cast<std::uint32_t>(i)});
-        }
-    }
-}
-
-} // namespace detail
-
 /// The hierarchy over the scene's bounded shapes, however few.
 template <SceneModel S>
 Accelerator build_accelerator(const S& scene, const BuildOptions& options = {}) {
     std::vector<BoxRef> boxes;
     std::vector<PrimitiveRef> refs;
-    [&]<std::uint32_t... kind>(std::integer_sequence<std::uint32_t, kind...>) {
-        (detail::collect_bounds<S, kind>(scene, boxes, refs), ...);
-    }
-    (std::make_integer_sequence<std::uint32_t, primitive_kinds>{});
+    for_each_bounded(scene, [&]<std::uint32_t kind>(const auto& primitive, std::uint32_t index) {
+        boxes.push_back(
+            box_ref(round_outwards(bounds_of(scene, primitive)), static_cast<std::uint32_t>(refs.size())));
+        refs.push_back({kind, index});
+    });
     Bvh bvh = build_bvh(std::move(boxes), options.threads, options.quality);
     Accelerator result;
     result.box = detail::root_bounds(bvh.nodes);
@@ -146,18 +130,9 @@ Accelerator build_accelerator(const S& scene, const BuildOptions& options = {}) 
 
 template <SceneModel S>
 std::size_t bounded_primitives(const S& scene) {
-    const auto count = [&]<std::uint32_t kind>(std::integral_constant<std::uint32_t, kind>) -> std::size_t {
-        using R = typename S::Real;
-        if constexpr (uses_kind(S::traits, kind) && is_bounded<ShapeOfKind<R, kind>>) {
-            return scene.primitives(Of<PrimitiveOfKind<R, kind>>{}).size();
-        } else {
-            return 0;
-        }
-    };
-    return [&]<std::uint32_t... kind>(std::integer_sequence<std::uint32_t, kind...>) {
-        return (count(std::integral_constant<std::uint32_t, kind>{}) + ...);
-    }
-    (std::make_integer_sequence<std::uint32_t, primitive_kinds>{});
+    std::size_t count = 0;
+    for_each_bounded(scene, [&]<std::uint32_t>(const auto&, std::uint32_t) { ++count; });
+    return count;
 }
 
 /// To be called when the tables and meshes are filled, before rendering.

@@ -5,18 +5,21 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 /// Which shapes a part of the picture can show at all, for scenes that have too few for a hierarchy.
 namespace scc::runtime {
 
-/// A bit per bounded primitive, in the order of kinds and tables, the lowest first; those beyond the 32nd
+/// A bit per bounded primitive, in the order of for_each_bounded, the lowest first; those beyond the 32nd
 /// share its bit.
 using Candidates = std::int32_t;
 inline constexpr Candidates all_candidates = -1;
 
+inline Candidates candidate(std::size_t i) {
+    return static_cast<Candidates>(1U << std::min<std::size_t>(i, 31));
+}
 /// Takes the next primitive's bit.
 inline bool next_is_candidate(Candidates& left) {
     const bool result = (left & 1) != 0;
@@ -24,28 +27,13 @@ inline bool next_is_candidate(Candidates& left) {
     return result;
 }
 
-namespace detail {
-
-template <class S, std::uint32_t kind>
-void add_boxes(const S& scene, std::vector<Bounds<typename S::Real>>& boxes) {
-    using R = typename S::Real;
-    if constexpr (uses_kind(S::traits, kind) && is_bounded<ShapeOfKind<R, kind>>) {
-        for (const auto& primitive : scene.primitives(Of<PrimitiveOfKind<R, kind>>{})) {
-            boxes.push_back(bounds_of(scene, primitive));
-        }
-    }
-}
-
-} // namespace detail
-
 /// The boxes of a scene's bounded primitives, in the order of Candidates.
 template <class S>
 std::vector<Bounds<typename S::Real>> primitive_boxes(const S& scene) {
     std::vector<Bounds<typename S::Real>> boxes;
-    [&]<std::uint32_t... kind>(std::integer_sequence<std::uint32_t, kind...>) {
-        (detail::add_boxes<S, kind>(scene, boxes), ...);
-    }
-    (std::make_integer_sequence<std::uint32_t, primitive_kinds>{});
+    for_each_bounded(scene, [&]<std::uint32_t>(const auto& primitive, std::uint32_t) {
+        boxes.push_back(bounds_of(scene, primitive));
+    });
     return boxes;
 }
 
@@ -91,7 +79,7 @@ Candidates candidates_in(const std::vector<Bounds<R>>& boxes, const ViewPart<R>&
     Candidates result = 0;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         if (part.may_meet(boxes[i])) {
-            result |= static_cast<Candidates>(1U << std::min<std::size_t>(i, 31));
+            result |= candidate(i);
         }
     }
     return result;

@@ -70,37 +70,43 @@ L log2_of(const L& x) {
     return exponent + (s * scale + (s * scale) * (square * series));
 }
 
-/// 2^t; 0 where that is no normal number. 2^(n + f) with |f| <= 1/2 is 2^n times the series of e^(f ln 2).
+/// 2^t for t > -bias. 2^(n + f) with |f| <= 1/2 is 2^n times the series of e^(f ln 2).
 template <class L>
 L exp2_of(const L& t) {
     using Format = BinaryFormat<RealOf<L>>;
     using R = RealOf<L>;
-    constexpr R last = R(Format::bias - 1);
-    const L in_range = minimum(maximum(t, L(-last)), L(last));
     constexpr R to_whole = R(typename Format::Bits{3} << (Format::mantissa - 1)); // rounds to whole numbers
-    const L shifted = in_range + L(to_whole);
-    const L f = (in_range - (shifted - L(to_whole))) * L(R(0.69314718055994530942));
+    const L shifted = t + L(to_whole);
+    const L f = (t - (shifted - L(to_whole))) * L(R(0.69314718055994530942));
     L series(R(1));
     for (int i = Format::exp_terms - 1; i >= 1; --i) {
         series = series * (f * L(R(1) / R(i))) + L(R(1));
     }
     const auto power = (bits_of(shifted) + typename Format::Bits{Format::bias}) << Format::mantissa;
-    return choose(t > L(-last), series * real_of(t, power), L(0));
+    return series * real_of(t, power);
 }
 
 } // namespace detail
 
-/// x^y for 0 <= x <= 1 or a little more and y >= 0. The error is at most 4 roundings of 1, absolutely, which
-/// is what a colour's term needs; library functions bound the relative error and work on one number at a
-/// time. The same bits in any number of lanes.
+/// x^y for 0 <= x <= 1 or a little more (x no denormal number) and y >= 0. The error is at most 4 roundings
+/// of 1, absolutely, which is what a colour's term needs; library functions bound the relative error and work
+/// on one number at a time. So powers below half a rounding of 1 are 0, as those of most highlights are in
+/// most places. The same bits in any number of lanes.
 template <Lane L>
 L unit_power(const L& x, const L& y) {
     if constexpr (sizeof(RealOf<L>) > sizeof(double)) {
         return power(x, y);
     } else {
-        constexpr RealOf<L> least = std::numeric_limits<RealOf<L>>::min();
-        const L result = detail::exp2_of(y * detail::log2_of(maximum(x, L(least))));
-        return choose(y > 0, choose(x > 0, result, L(0)), L(1));
+        using R = RealOf<L>;
+        constexpr R digits = std::numeric_limits<R>::digits;
+        // log2(x) <= (x - 1) / ln 2; by 1 more than the digits, so that rounding does not matter.
+        if (none(y * (x - 1) > L(-(digits + 2) * R(0.69314718055994530942)))) {
+            return L(0);
+        }
+        constexpr R largest = R(detail::BinaryFormat<R>::bias - 1);
+        const L t = y * detail::log2_of(maximum(x, L(std::numeric_limits<R>::min())));
+        const L result = detail::exp2_of(minimum(maximum(t, L(-digits - 1)), L(largest)));
+        return choose(y > 0, choose((x > 0) & (t > L(-digits - 1)), result, L(0)), L(1));
     }
 }
 

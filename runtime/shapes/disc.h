@@ -16,31 +16,30 @@ struct Disc {
     static constexpr std::string_view name = "disc";
 
     Vec3<R> center{0, 0, 0};
-    Vec3<R> normal{0, 1, 0};
+    Vec3<R> normal{0, 1, 0}; ///< unit
     R radius = 1;
     R hole = 0;
 
     static constexpr auto fields() {
         return std::tuple{field("center", &Disc::center, Rule::any, "centre"),
-                          field("normal", &Disc::normal, Rule::nonzero_vector, "points to the front side"),
+                          field("normal", &Disc::normal, Rule::direction, "points to the front side"),
                           field("radius", &Disc::radius, Rule::positive, "outer radius"),
                           field("hole", &Disc::hole, Rule::non_negative, "inner radius")};
     }
 
     constexpr Bounds<R> bounds() const {
-        const Vec3<R> n = normalize(normal);
         const R slack = 16 * roundoff<R>() * (largest_component(absolute(center)) + radius);
         // Along an axis the disc reaches radius times the sine of the angle between axis and normal.
         const auto reach = [&](R cosine) {
             return radius * square_root(maximum(R(0), 1 - cosine * cosine)) + slack;
         };
-        const Vec3<R> half{reach(n.x), reach(n.y), reach(n.z)};
+        const Vec3<R> half{reach(normal.x), reach(normal.y), reach(normal.z)};
         return {center - half, center + half};
     }
 
     template <class L>
     constexpr ShapeHit<L> intersect(const Ray<L>& ray) const {
-        const Vec3<L> n = lanes<L>(normalize(normal));
+        const Vec3<L> n = lanes<L>(normal);
         const Vec3<L> to_center = lanes<L>(center) - ray.org;
         const L t = dot(n, to_center) / dot(n, ray.dir);
         MaskOf<L> inside = (t >= ray.t_min) & (t <= ray.t_max);
@@ -56,7 +55,7 @@ struct Disc {
     template <class L>
     constexpr Surface<L> surface(const Ray<L>& ray, const ShapeHit<L>& hit) const {
         const L u = roundoff<L>();
-        const Vec3<L> n = lanes<L>(normalize(normal));
+        const Vec3<L> n = lanes<L>(normal);
         const Vec3<L> c = lanes<L>(center);
         const Vec3<L> from_center = (ray.org - c) + hit.t * ray.dir;
         const Vec3<L> point = c + (from_center - n * dot(n, from_center));

@@ -14,25 +14,29 @@ template <class R>
 struct Plane {
     static constexpr std::string_view name = "plane";
 
-    Vec3<R> normal{0, 1, 0};
+    Vec3<R> normal{0, 1, 0}; ///< unit
     R offset = 0;
 
     static constexpr auto fields() {
         return std::tuple{
-            field("normal", &Plane::normal, Rule::nonzero_vector, "points to the front side"),
+            field("normal", &Plane::normal, Rule::direction, "points to the front side"),
             field("offset", &Plane::offset, Rule::any, "distance from the origin along the normal")};
     }
 
     template <class L>
     constexpr ShapeHit<L> intersect(const Ray<L>& ray) const {
-        const Vec3<L> n = lanes<L>(normalize(normal));
-        const L t = (L(offset) - dot(n, ray.org)) / dot(n, ray.dir);
+        const Vec3<L> n = lanes<L>(normal);
+        const L distance = L(offset) - dot(n, ray.org), slope = dot(n, ray.dir);
+        if (none(((distance >= 0) & (slope > 0)) | ((distance <= 0) & (slope < 0)))) {
+            return {}; // all leave it behind, as most that start on it do
+        }
+        const L t = distance / slope;
         return {choose((t >= ray.t_min) & (t <= ray.t_max), t, infinity<L>()), {}};
     }
 
     template <class L>
     constexpr Surface<L> surface(const Ray<L>& ray, const ShapeHit<L>& hit) const {
-        const Vec3<L> n = lanes<L>(normalize(normal));
+        const Vec3<L> n = lanes<L>(normal);
         const Vec3<L> reached = ray.org + hit.t * ray.dir;
         const Vec3<L> point = reached - n * (dot(n, reached) - L(offset));
         // n.p takes 4 roundings of its terms, here and in intersect; |offset| is at most their sum.

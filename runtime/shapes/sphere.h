@@ -30,6 +30,9 @@ struct Sphere {
         return {center - reach, center + reach};
     }
 
+    /// Holds the points that bounds() holds.
+    constexpr Ball<R> ball() const { return {center, bounds().max.x - center.x}; }
+
     template <class L>
     constexpr ShapeHit<L> intersect(const Ray<L>& ray) const {
         const L r = L(radius);

@@ -151,6 +151,27 @@ TYPED_TEST(PackedFormulas, TransformedSurfaceGivesTheScalarBits) {
     }
 }
 
+// Absolutely, since highlights are added to colours of about 1; so what is below a rounding may be 0.
+TYPED_TEST(PackedFormulas, PowersAreOffByAFewRoundingsOfOne) {
+    using R = TypeParam;
+    using L = WidestLane<R>;
+    Random<R> random(8);
+    int zeros = 0;
+    for (int round = 0; round < 20000; ++round) {
+        const R y = random.number(0, 1) < 0.5 ? random.number(0, 3) : std::exp2(random.number(0, 30));
+        // Mostly where the power is neither 0 nor 1.
+        const R middle = std::exp2(-minimum(random.number(0, 40) / y, R(120)));
+        const R x = round % 4 == 0 ? random.number(0, 1) : round % 100 == 1 ? R(round % 200 == 1) : middle;
+        const long double exact = std::pow(static_cast<long double>(x), static_cast<long double>(y));
+        const R found = unit_power(x, y);
+        EXPECT_LE(std::abs(static_cast<long double>(found) - exact), 4 * roundoff<R>()) << x << " ^ " << y;
+        EXPECT_TRUE(same(lane(unit_power(L(x), L(y)), 0), found)) << x << " ^ " << y;
+        zeros += found == 0 ? 1 : 0;
+    }
+    EXPECT_GT(zeros, 1000);
+    EXPECT_EQ(unit_power(R(0), R(0)), 1);
+}
+
 TYPED_TEST(PackedFormulas, ShadingTermsGiveTheScalarBits) {
     using R = TypeParam;
     using L = WidestLane<R>;

@@ -62,7 +62,7 @@ void randomize(Box<R>& s, Random<R>& random, double distance) {
 }
 template <class R>
 void randomize(Plane<R>& s, Random<R>& random, double distance) {
-    s = {random.direction() * random.number(0.5, 2), random.number(-distance, distance)};
+    s = {random.direction(), random.number(-distance, distance)};
 }
 template <class R>
 void randomize(Cylinder<R>& s, Random<R>& random, double distance) {
@@ -82,8 +82,7 @@ void randomize(Cone<R>& s, Random<R>& random, double distance) {
 template <class R>
 void randomize(Disc<R>& s, Random<R>& random, double distance) {
     const R radius = random.number(0.5, 2);
-    s = {random.vector(distance), random.direction() * random.number(0.5, 2), radius,
-         radius * random.number(0, 0.7)};
+    s = {random.vector(distance), random.direction(), radius, radius * random.number(0, 0.7)};
 }
 template <class R>
 void randomize(Triangle<R>& s, Random<R>& random, double distance) {
@@ -175,10 +174,14 @@ struct SingleShape {
         return {org, (target - org) * random.number(0.3, 3)};
     }
 
-    WorldSurface<R> surface(const Ray<R>& ray, const Hit<R>& hit) const {
-        WorldSurface<R> result;
+    struct Place {
+        Surface<R> surface;
+        Vec3<R> object_point;
+    };
+    Place surface(const Ray<R>& ray, const Hit<R>& hit) const {
+        Place result;
         for_each_primitive(scene, hit, true, [&](const auto& primitive, bool here) {
-            result = surface_of(scene, primitive, ray, hit.shape, here);
+            result.surface = surface_of(scene, primitive, ray, hit.shape, here, result.object_point);
         });
         return result;
     }

@@ -255,14 +255,17 @@ TEST(Render, ProgressCanEndItEarly) {
 TEST(Camera, PixelCentresAndTheWindowsShift) {
     Camera<double> camera; // at (0, 0, 5), looking down -z
     camera.half_height = 0.5;
-    const Ray<double> first = camera_ray(camera, Projection::perspective, 0.5, 0.5, 4, 2);
+    const auto first_ray = [&](Projection projection) {
+        return camera_ray(camera, projection, window_x(camera, 0.5, 4, 2), window_y(camera, 0.5, 2));
+    };
+    const Ray<double> first = first_ray(Projection::perspective);
     EXPECT_EQ(first.org, (Vec3<double>{0, 0, 5}));
     EXPECT_EQ(first.dir, (Vec3<double>{-0.75, 0.25, -1}));
     camera.shift_x = 0.5;
     camera.shift_y = -1;
-    const Ray<double> shifted = camera_ray(camera, Projection::perspective, 0.5, 0.5, 4, 2);
+    const Ray<double> shifted = first_ray(Projection::perspective);
     EXPECT_EQ(shifted.dir, (Vec3<double>{-0.25, -0.75, -1}));
-    const Ray<double> parallel = camera_ray(camera, Projection::orthographic, 0.5, 0.5, 4, 2);
+    const Ray<double> parallel = first_ray(Projection::orthographic);
     EXPECT_EQ(parallel.org, (Vec3<double>{-0.25, -0.75, 5}));
     EXPECT_EQ(parallel.dir, (Vec3<double>{0, 0, -1}));
 }

@@ -64,8 +64,8 @@ public:
     }
 
     /// Whether no ray that starts on the surface, on the side that `dir` goes to, can meet the shape again.
-    static bool is_left_for_good(const SingleShape<Shape, Real>& single, const WorldSurface<Real>& at,
-                                 const Vec3<Real>& dir) {
+    static bool is_left_for_good(const SingleShape<Shape, Real>& single,
+                                 const typename SingleShape<Shape, Real>::Place& at, const Vec3<Real>& dir) {
         const bool outwards = dot(at.surface.normal, dir) > 0;
         if constexpr (requires { single.shape.hole; } || std::is_same_v<Shape, Triangle<Real>> ||
                       std::is_same_v<Shape, Plane<Real>>) {
@@ -120,7 +120,7 @@ TYPED_TEST_SUITE(ShapeWithFormula, ShapesWithFormulas);
 
 TYPED_TEST(BoundedShape, HitIsInsideTheBounds) {
     using R = typename RealOfShape<TypeParam>::type;
-    this->for_hits(200, [&](const auto& single, auto&, const auto&, const auto&, const WorldSurface<R>& at) {
+    this->for_hits(200, [&](const auto& single, auto&, const auto&, const auto&, const auto& at) {
         const Bounds<R> b = single.bounds();
         const Vec3<R> p = at.surface.point, e = at.surface.error;
         EXPECT_TRUE(b.min.x <= p.x + e.x && p.x - e.x <= b.max.x);
@@ -131,7 +131,7 @@ TYPED_TEST(BoundedShape, HitIsInsideTheBounds) {
 
 TYPED_TEST(ShapeWithFormula, HitIsOnTheSurfaceWithinTheStatedBound) {
     using R = typename RealOfShape<TypeParam>::type;
-    this->for_hits(400, [&](const auto& single, auto&, const auto&, const auto&, const WorldSurface<R>& at) {
+    this->for_hits(400, [&](const auto& single, auto&, const auto&, const auto&, const auto& at) {
         const Affine<long double> map = affine_cast<long double>(single.world_from_object);
         const Affine<long double> back = inverse(map);
         const Wide p = transform_point(back, lanes<long double>(at.surface.point));
@@ -143,7 +143,7 @@ TYPED_TEST(ShapeWithFormula, HitIsOnTheSurfaceWithinTheStatedBound) {
 
 TYPED_TEST(ShapeWithFormula, NormalIsTheNormalisedGradient) {
     using R = typename RealOfShape<TypeParam>::type;
-    this->for_hits(100, [&](const auto& single, auto&, const auto&, const auto&, const WorldSurface<R>& at) {
+    this->for_hits(100, [&](const auto& single, auto&, const auto&, const auto&, const auto& at) {
         const Wide p = lanes<long double>(at.object_point);
         const Wide unit = normalize(transform_normal(affine_cast<long double>(single.world_from_object),
                                                      lanes<long double>(at.surface.normal)));
@@ -191,24 +191,23 @@ Vec3<R> leaving(const Vec3<R>& normal, R slope, Random<R>& random) {
 TYPED_TEST(EveryShape, RayLeavingTheSurfaceDoesNotMeetItAgain) {
     using R = typename RealOfShape<TypeParam>::type;
     int checked = 0;
-    this->for_hits(
-        150, [&](const auto& single, Random<R>& random, const auto&, const auto&, const WorldSurface<R>& at) {
-            for (const double slope : {3.0, 0.1, 1e-3, 1e-5, 1e-7, 1e-10, 1e-14, 0.0}) {
-                for (const int side : {1, -1}) {
-                    const Vec3<R> dir = leaving<R>(at.surface.normal * R(side), R(slope), random);
-                    // A plane has no end at which a ray along it, to within rounding, would have left it.
-                    const R flattest =
-                        is_bounded<TypeParam> ? R(0) : 64 * std::numeric_limits<R>::epsilon() * length(dir);
-                    if (dot(dir, at.surface.normal) * R(side) > flattest &&
-                        this->is_left_for_good(single, at, dir)) {
-                        ++checked;
-                        const Ray<R> ray{start_off(at.surface, dir), dir, spawned_t_min<R>(), infinity<R>()};
-                        EXPECT_FALSE(any_hit(single.scene, ray))
-                            << "slope " << slope << ", t " << closest_hit(single.scene, ray).shape.t;
-                    }
+    this->for_hits(150, [&](const auto& single, Random<R>& random, const auto&, const auto&, const auto& at) {
+        for (const double slope : {3.0, 0.1, 1e-3, 1e-5, 1e-7, 1e-10, 1e-14, 0.0}) {
+            for (const int side : {1, -1}) {
+                const Vec3<R> dir = leaving<R>(at.surface.normal * R(side), R(slope), random);
+                // A plane has no end at which a ray along it, to within rounding, would have left it.
+                const R flattest =
+                    is_bounded<TypeParam> ? R(0) : 64 * std::numeric_limits<R>::epsilon() * length(dir);
+                if (dot(dir, at.surface.normal) * R(side) > flattest &&
+                    this->is_left_for_good(single, at, dir)) {
+                    ++checked;
+                    const Ray<R> ray{start_off(at.surface, dir), dir, spawned_t_min<R>(), infinity<R>()};
+                    EXPECT_FALSE(any_hit(single.scene, ray))
+                        << "slope " << slope << ", t " << closest_hit(single.scene, ray).shape.t;
                 }
             }
-        });
+        }
+    });
     if (!is_mesh<TypeParam>) {
         EXPECT_GT(checked, 3000);
     }
@@ -216,28 +215,27 @@ TYPED_TEST(EveryShape, RayLeavingTheSurfaceDoesNotMeetItAgain) {
 
 TYPED_TEST(EveryShape, RayGoingInsideMeetsTheFarSideOnly) {
     using R = typename RealOfShape<TypeParam>::type;
-    this->for_hits(
-        100, [&](const auto& single, Random<R>& random, const auto&, const auto&, const WorldSurface<R>& at) {
-            if constexpr (requires { single.shape.caps; }) {
-                if (!single.shape.caps) {
-                    return;
-                }
-            }
-            const Vec3<R> dir = leaving<R>(-at.surface.normal, R(0.5), random);
-            if (this->is_left_for_good(single, at, dir)) {
-                return; // has no inside
-            }
-            const Ray<R> ray{start_off(at.surface, dir), dir, spawned_t_min<R>(), infinity<R>()};
-            if (this->is_beyond_a_thin_rim(single, ray.org)) {
+    this->for_hits(100, [&](const auto& single, Random<R>& random, const auto&, const auto&, const auto& at) {
+        if constexpr (requires { single.shape.caps; }) {
+            if (!single.shape.caps) {
                 return;
             }
-            const Hit<R> hit = closest_hit(single.scene, ray);
-            ASSERT_TRUE(is_hit(hit));
-            const WorldSurface<R> far = single.surface(ray, hit);
-            EXPECT_GT(dot(far.surface.normal, dir), 0) << "leaves there";
-            const Ray<R> outside{start_off(far.surface, dir), dir, spawned_t_min<R>(), infinity<R>()};
-            EXPECT_FALSE(any_hit(single.scene, outside));
-        });
+        }
+        const Vec3<R> dir = leaving<R>(-at.surface.normal, R(0.5), random);
+        if (this->is_left_for_good(single, at, dir)) {
+            return; // has no inside
+        }
+        const Ray<R> ray{start_off(at.surface, dir), dir, spawned_t_min<R>(), infinity<R>()};
+        if (this->is_beyond_a_thin_rim(single, ray.org)) {
+            return;
+        }
+        const Hit<R> hit = closest_hit(single.scene, ray);
+        ASSERT_TRUE(is_hit(hit));
+        const auto far = single.surface(ray, hit);
+        EXPECT_GT(dot(far.surface.normal, dir), 0) << "leaves there";
+        const Ray<R> outside{start_off(far.surface, dir), dir, spawned_t_min<R>(), infinity<R>()};
+        EXPECT_FALSE(any_hit(single.scene, outside));
+    });
 }
 
 TYPED_TEST(EveryShape, MovingRayAndObjectTogetherKeepsTheDistance) {
@@ -254,7 +252,7 @@ TYPED_TEST(EveryShape, MovingRayAndObjectTogetherKeepsTheDistance) {
             const Hit<R> hit = closest_hit(single.scene, ray);
             const Hit<R> other = closest_hit(moved, transform_ray(affine_cast<R>(map), ray));
             if (is_hit(hit) && is_hit(other)) {
-                const WorldSurface<R> at = single.surface(ray, hit);
+                const auto at = single.surface(ray, hit);
                 const R slope = dot(at.surface.normal, ray.dir) / length(ray.dir);
                 if (slope < R(-0.1) || slope > R(0.1)) {
                     EXPECT_NEAR(static_cast<double>(hit.shape.t / other.shape.t), 1, 2e5 * this->eps);

@@ -72,11 +72,9 @@ struct Start {
 Start start_of(const TriangleMesh& mesh, const View& view, const Hits& hits, std::size_t i) {
     const Pixel corner = packet_corner(view.side, i);
     const auto pixel = static_cast<int>(i % packet);
-    const Vec dir =
-        camera_ray(view.camera, runtime::Projection::perspective,
-                   static_cast<float>(corner.x + pixel % packet_side) + 0.5F,
-                   static_cast<float>(corner.y + pixel / packet_side) + 0.5F, view.side, view.side)
-            .dir;
+    const Vec dir = view.ray_through(static_cast<float>(corner.x + pixel % packet_side) + 0.5F,
+                                     static_cast<float>(corner.y + pixel / packet_side) + 0.5F)
+                        .dir;
     const std::uint32_t* index = &mesh.indices[std::size_t{3} * hits.triangle[i]];
     const Vec a = mesh.position(index[0]);
     const Vec n = normalize(cross(mesh.position(index[1]) - a, mesh.position(index[2]) - a));

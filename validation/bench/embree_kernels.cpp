@@ -109,9 +109,7 @@ struct RaySource {
     Vec org, corner, right, down;
 
     explicit RaySource(const View& view) {
-        const auto at = [&](float x, float y) {
-            return camera_ray(view.camera, runtime::Projection::perspective, x, y, view.side, view.side).dir;
-        };
+        const auto at = [&](float x, float y) { return view.ray_through(x, y).dir; };
         const auto side = static_cast<float>(view.side);
         org = view.camera.eye;
         corner = at(0.5F, 0.5F);

@@ -116,10 +116,8 @@ void OurMesh::primary(const View& view, Hits& hits, int threads) const {
             for_packs([&](std::size_t p, std::size_t first) {
                 const Pixel corner = packet_corner(view.side, first);
                 const std::size_t in_packet = first % packet;
-                rays[p] = camera_ray(view.camera, Projection::perspective,
-                                     L(static_cast<float>(corner.x)) + load(centers_x, in_packet),
-                                     L(static_cast<float>(corner.y)) + load(centers_y, in_packet), view.side,
-                                     view.side);
+                rays[p] = view.ray_through(L(static_cast<float>(corner.x)) + load(centers_x, in_packet),
+                                           L(static_cast<float>(corner.y)) + load(centers_y, in_packet));
             });
             closest_hits<most_packs, MeshScene, L>(scene_->scene, rays, Apex::origin, found);
             for_packs([&](std::size_t p, std::size_t first) { scene_->store(found[p], hits, first); });

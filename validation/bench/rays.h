@@ -37,6 +37,12 @@ struct View {
     int side = 0;
 
     std::size_t rays() const { return static_cast<std::size_t>(side) * static_cast<std::size_t>(side); }
+    /// Through a point of the picture, in pixels.
+    template <class L>
+    runtime::Ray<L> ray_through(const L& column, const L& row) const {
+        return camera_ray(camera, runtime::Projection::perspective, window_x(camera, column, side, side),
+                          window_y(camera, row, side));
+    }
 };
 
 /// The pixels of a picture in the order of its hits: tile by tile, in these 4 x 4 pixels by 4 x 4 pixels.
