@@ -18,9 +18,9 @@ struct TrialOptions {
 };
 
 /// Compares what the renderers for float and for double draw of a picture with these settings. Float passes
-/// where a sample is at most 1/32 step off, or lies between what double sees within 1/128 pixel of the
-/// sample: then float drew what is seen a little beside, as at edges and in mirrors of mirrors, where the
-/// choice of the sample's place itself decides more. At most 1 of 20 samples may need that excuse.
+/// where a sample is at most 1/32 step of the file off, or at most 1/4 from what double sees within 1/128
+/// pixel around: then float drew what is seen a little beside, as at edges and in mirrors of mirrors, where
+/// the choice of the sample's place itself decides more. At most 1 of 20 samples may need that excuse.
 PrecisionTrial try_float(const decltype(host::Drawable::render)& single,
                          const decltype(host::Drawable::render)& full,
                          const runtime::RenderSettings& settings, const TrialOptions& options);
