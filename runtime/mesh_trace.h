@@ -5,9 +5,11 @@
 #include "runtime/mesh_data.h"
 #include "runtime/shapes/triangle_test.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
+#include <utility>
 
 namespace scc::runtime {
 
@@ -25,10 +27,9 @@ inline Bounds<float> bounds_of(const MeshData& mesh) {
 /// leaf have any numbers.
 template <class L>
 Corners<L> corners_at(const MeshData& mesh, const TrianglePlace& place) {
-    const auto at = [&](std::uint32_t component) {
-        return load_lanes<L>(triangle_word(mesh, place, component));
-    };
-    return {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}, {at(6), at(7), at(8)}};
+    const float* word = triangle_word(mesh, place, 0);
+    const auto next = [&] { return load_lanes<L>(std::exchange(word, word + place.count)); };
+    return {{next(), next(), next()}, {next(), next(), next()}, {next(), next(), next()}};
 }
 
 inline void prefetch_leaf(const MeshData& mesh, const BvhLeaf& leaf) {
@@ -63,72 +64,125 @@ requires(sizeof(R) > sizeof(double)) struct TriangleLanes<R> {
     using type = R;
 };
 
-/// One ray's search.
-template <bool AnyHit, class R>
-class RayInMesh {
+/// The search of packs whose rays go by themselves.
+template <bool AnyHit, class L>
+class RaysInMesh {
 public:
-    using T = typename TriangleLanes<R>::type;
+    using R = RealOf<L>;
 
-    RayInMesh(const MeshData& mesh, const Ray<R>& ray)
-        : mesh_(mesh), ray_(ray), slabs_(ray, bounds_in<R>(mesh)),
-          dir_size_(largest_component(absolute(ray.dir))), nearest_(ray.t_max) {}
+    explicit RaysInMesh(const MeshData& mesh) : mesh_(mesh) {}
 
-    ShapeHit<R> run() {
-        traverse_ray(mesh_.nodes, slabs_, ray_.t_min, nearest_,
-                     [&](std::uint32_t first, std::uint32_t count) {
-                         for (std::uint32_t i = 0; i < count; i += lane_count<T>) {
-                             test({first, count, i});
-                         }
-                         return AnyHit && best_.t < infinity<R>();
-                     });
-        return best_;
+    /// `hit` stays where it is until run().
+    void add(const Ray<L>& ray, ShapeHit<L>& hit) {
+        const std::size_t first = count_ * width;
+        const Bounds<float> box = bounds_of(mesh_);
+        Pack& pack = packs_[count_++];
+        pack.slabs.emplace(ray, Bounds<R>{lanes<R>(box.min), lanes<R>(box.max)});
+        pack.hit = &hit;
+        pack.best_id = Index(~0U);
+        const L* numbers[6] = {&ray.org.x, &ray.org.y, &ray.org.z, &ray.dir.x, &ray.dir.y, &ray.dir.z};
+        for (std::size_t i = 0; i < 6; ++i) {
+            store_lanes(lines_[i] + first, *numbers[i]);
+        }
+        store_lanes(t_min_ + first, ray.t_min);
+        store_lanes(nearest_ + first, ray.t_max);
+        store_lanes(tolerance_ + first,
+                    tolerance_per_size(largest_component(absolute(ray.dir)), pack.slabs->reach()));
+        turns_.add(first, *pack.slabs, ray.t_min, is_active(ray));
+        if (count_ == most) {
+            run();
+        }
+    }
+
+    void run() {
+        turns_.run(mesh_.nodes, nearest_, [&](std::size_t ray, std::uint32_t first, std::uint32_t count) {
+            bool found = false;
+            for (std::uint32_t i = 0; i < count; i += lane_count<T>) {
+                found |= test(ray, {first, count, i});
+            }
+            return AnyHit && found;
+        });
+        count_ = 0;
     }
 
 private:
-    template <class Number>
-    static Bounds<Number> bounds_in(const MeshData& mesh) {
-        const Bounds<float> box = bounds_of(mesh);
-        return {lanes<Number>(box.min), lanes<Number>(box.max)};
+    using Index = IndexOf<L>;
+    using T = typename TriangleLanes<R>::type;
+
+    static constexpr std::size_t width = lane_count<L>;
+    /// Packs at once: enough rays that their turns are long.
+    static constexpr std::size_t most = width == 1 ? 1 : std::min<std::size_t>(64 / width, most_packs);
+    static constexpr std::size_t rays = most * width;
+
+    struct Pack {
+        std::optional<SlabRay<L>> slabs;
+        ShapeHit<L>* hit;
+        Index best_id;
+    };
+
+    Vec3<T> org(std::size_t ray) const { return {T(lines_[0][ray]), T(lines_[1][ray]), T(lines_[2][ray])}; }
+    Vec3<T> dir(std::size_t ray) const { return {T(lines_[3][ray]), T(lines_[4][ray]), T(lines_[5][ray])}; }
+
+    /// The lanes that are triangles from `place` on and not what comes after the leaf.
+    static unsigned present(const MaskOf<T>& lanes, const TrianglePlace& place) {
+        return bits(lanes) & ((1U << (place.count - place.which)) - 1);
     }
 
-    void test(const TrianglePlace& place) {
+    /// Whether the ray meets one. Most triangles of a leaf are behind the ray or beside it.
+    bool test(std::size_t ray, const TrianglePlace& place) {
         const Corners<T> corners = corners_at<T>(mesh_, place);
-        const Vec3<T> org = lanes<T>(ray_.org), dir = lanes<T>(ray_.dir);
-        const Corners<T> relative = relative_to(org, corners);
-        const EdgeFunctions<T> edges(TriangleView<T>(relative), dir, T(dir_size_));
-        MaskOf<T> met = edges.may_pass();
-        const unsigned present = (1U << (place.count - place.which)) - 1;
-        if ((bits(met) & present) == 0) {
-            return;
+        const Vec3<T> to_a = corners.a - org(ray);
+        const T t = distance_to_plane(plane_normal(corners), to_a, dir(ray));
+        const MaskOf<T> ahead = t >= T(t_min_[ray]);
+        if (present(ahead, place) == 0) {
+            return false;
         }
-        met = edges.pass(met, dir, [&](int i) { return lane(relative, i); });
-        const T t = put_into_box(distance_to_plane(plane_normal(corners), relative.a, dir), corners, slabs_,
-                                 T(ray_.t_min), met);
-        for (unsigned left = bits(met) & present; left != 0; left &= left - 1) {
-            const int i = __builtin_ctz(left);
-            keep(lane(t, i), {place.first, place.count, place.which + static_cast<std::uint32_t>(i)});
-        }
+        const MaskOf<T> candidates = ahead & may_pass_through(corners, to_a, dir(ray), T(tolerance_[ray]));
+        return present(candidates, place) != 0 && test_exactly(ray, place, t, candidates);
     }
 
-    void keep(R t, const TrianglePlace& place) {
-        if (!(t <= nearest_)) {
-            return;
+    [[gnu::noinline]] bool test_exactly(std::size_t ray, const TrianglePlace& place, const T& distance,
+                                        const MaskOf<T>& candidates) {
+        const Corners<T> corners = corners_at<T>(mesh_, place);
+        const Vec3<T> direction = dir(ray);
+        const Corners<T> relative = relative_to(org(ray), corners);
+        const EdgeFunctions<T> edges(TriangleView<T>(relative), direction,
+                                     largest_component(absolute(direction)));
+        MaskOf<T> met =
+            edges.pass(candidates & edges.may_pass(), direction, [&](int i) { return lane(relative, i); });
+        const SlabRay<R> slabs = lane(*packs_[ray / width].slabs, static_cast<int>(ray % width));
+        const T t = put_into_box(distance, corners, slabs, T(t_min_[ray]), met);
+        bool found = false;
+        for (unsigned left = present(met, place); left != 0; left &= left - 1) {
+            const int i = __builtin_ctz(left);
+            found |= keep(ray, lane(t, i),
+                          {place.first, place.count, place.which + static_cast<std::uint32_t>(i)});
         }
+        return found;
+    }
+
+    bool keep(std::size_t ray, R t, const TrianglePlace& place) {
+        if (!(t <= nearest_[ray])) {
+            return false;
+        }
+        Pack& pack = packs_[ray / width];
+        const auto in_pack = static_cast<int>(ray % width);
         const std::uint32_t id = triangle_id(mesh_, place);
-        if (t < nearest_ || id < best_id_) {
-            nearest_ = best_.t = t;
-            best_.part = part_of(place);
-            best_id_ = id;
+        if (t < nearest_[ray] || id < lane(pack.best_id, in_pack)) {
+            nearest_[ray] = t;
+            set_lane(pack.hit->t, in_pack, t);
+            set_lane(pack.hit->part, in_pack, part_of(place));
+            set_lane(pack.best_id, in_pack, id);
         }
+        return true;
     }
 
     const MeshData& mesh_;
-    const Ray<R>& ray_;
-    SlabRay<R> slabs_;
-    R dir_size_;
-    R nearest_;
-    ShapeHit<R> best_;
-    std::uint32_t best_id_ = ~0U;
+    std::size_t count_ = 0;
+    std::array<Pack, most> packs_;
+    alignas(64) R lines_[6][rays]; ///< origins and directions
+    R t_min_[rays], nearest_[rays], tolerance_[rays];
+    RaysInTurns<R, static_cast<int>(rays)> turns_;
 };
 
 /// The search of packs that run alike.
@@ -347,28 +401,29 @@ void intersect_mesh(const MeshData& mesh, std::span<Ray<L>> rays, Apex apex, std
     if (mesh.node_count == 0 || rays.empty()) {
         return;
     }
-    if constexpr (lane_count<L> == 1) {
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            if (is_active(rays[i])) {
-                hits[i] = detail::RayInMesh<AnyHit, L>(mesh, rays[i]).run();
-            }
-        }
-    } else {
-        BeamSet<L> beams;
-        if (beams.gather(rays, apex, bounds_of(mesh))) {
-            detail::BeamInMesh<AnyHit, L>(mesh, rays, apex, hits, beams).run();
-        } else if (rays.size() > 1) {
-            for (std::size_t i = 0; i < rays.size(); ++i) {
-                intersect_mesh<AnyHit>(mesh, rays.subspan(i, 1), apex, hits.subspan(i, 1));
-            }
+    const auto trace_as_beam = [&]([[maybe_unused]] std::size_t first, [[maybe_unused]] std::size_t count) {
+        if constexpr (lane_count<L> == 1) {
+            return false;
         } else {
-            for_each_lane(rays[0], [&](int i, const Ray<RealOf<L>>& ray) {
-                const auto hit = detail::RayInMesh<AnyHit, RealOf<L>>(mesh, ray).run();
-                set_lane(hits[0].t, i, hit.t);
-                set_lane(hits[0].part, i, hit.part);
-            });
+            BeamSet<L> beams;
+            const std::span<Ray<L>> packs = rays.subspan(first, count);
+            if (!beams.gather(packs, apex, bounds_of(mesh))) {
+                return false;
+            }
+            detail::BeamInMesh<AnyHit, L>(mesh, packs, apex, hits.subspan(first, count), beams).run();
+            return true;
+        }
+    };
+    if (trace_as_beam(0, rays.size())) {
+        return;
+    }
+    detail::RaysInMesh<AnyHit, L> singly(mesh);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (rays.size() == 1 || !trace_as_beam(i, 1)) {
+            singly.add(rays[i], hits[i]);
         }
     }
+    singly.run();
 }
 
 namespace detail {

@@ -195,10 +195,12 @@ public:
         const Accelerator& accelerator = scene_.accelerator;
         if constexpr (lane_count<L> == 1) {
             const Bounds<R> root{lanes<R>(accelerator.box.min), lanes<R>(accelerator.box.max)};
-            const SlabRay<R> slabs(rays_[0], root);
-            traverse_ray(
-                accelerator.nodes.data(), slabs, rays_[0].t_min, rays_[0].t_max,
-                [&](std::uint32_t first, std::uint32_t count) { return test_leaf(first, count, 1); });
+            RaysInTurns<R, 1> search;
+            search.add(0, SlabRay<R>(rays_[0], root), rays_[0].t_min, is_active(rays_[0]));
+            search.run(accelerator.nodes.data(), &rays_[0].t_max,
+                       [&](std::size_t, std::uint32_t first, std::uint32_t count) {
+                           return test_leaf(first, count, 1);
+                       });
         } else {
             BeamSet<L> beams;
             if (beams.gather(rays_, apex_, accelerator.box)) {

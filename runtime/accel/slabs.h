@@ -23,10 +23,11 @@ public:
         C near, far; ///< near > far: missed
     };
 
-    SlabRay(const Ray<L>& ray, const Bounds<RealOf<L>>& root) {
-        const Vec3<L> reach =
-            maximum(absolute(lanes<L>(root.min) - ray.org), absolute(lanes<L>(root.max) - ray.org));
-        const L pad = 16 * roundoff<L>() * largest_component(reach);
+    SlabRay() = default;
+    SlabRay(const Ray<L>& ray, const Bounds<RealOf<L>>& root)
+        : reach_(largest_component(
+              maximum(absolute(lanes<L>(root.min) - ray.org), absolute(lanes<L>(root.max) - ray.org)))) {
+        const L pad = 16 * roundoff<L>() * reach_;
         set_axis(0, ray.org.x, ray.dir.x, pad);
         set_axis(1, ray.org.y, ray.dir.y, pad);
         set_axis(2, ray.org.z, ray.dir.z, pad);
@@ -49,12 +50,29 @@ public:
         return result;
     }
 
+    /// The largest difference between a coordinate of the boxes and the origin.
+    const L& reach() const { return reach_; }
     const L& inverse(std::size_t axis) const { return inverse_[axis]; }
     /// To be taken off a box's lower or upper bound.
     const L& low_org(std::size_t axis) const { return low_org_[axis]; }
     const L& high_org(std::size_t axis) const { return high_org_[axis]; }
 
+    friend SlabRay<RealOf<L>> lane(const SlabRay& rays, int i) {
+        SlabRay<RealOf<L>> ray;
+        ray.reach_ = lane(rays.reach_, i);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            ray.inverse_[axis] = lane(rays.inverse_[axis], i);
+            ray.low_org_[axis] = lane(rays.low_org_[axis], i);
+            ray.high_org_[axis] = lane(rays.high_org_[axis], i);
+            ray.negative_[axis] = ray.inverse_[axis] < 0;
+        }
+        return ray;
+    }
+
 private:
+    template <class>
+    friend class SlabRay;
+
     void set_axis(std::size_t axis, const L& org, const L& dir, const L& pad) {
         inverse_[axis] = 1 / dir;
         negative_[axis] = inverse_[axis] < 0;
@@ -64,37 +82,46 @@ private:
         high_org_[axis] = org - padding;
     }
 
+    L reach_;
     std::array<L, 3> inverse_, low_org_, high_org_;
     std::array<MaskOf<L>, 3> negative_;
 };
 
-/// One ray's test against a node's eight boxes: SlabRay::range with the planes that come first along the ray
-/// looked up instead of selected.
-template <class R>
-class BoxTest {
+/// n single rays' tests against a node's eight boxes: SlabRay::range with the planes that come first along a
+/// ray looked up instead of selected.
+template <class R, int n>
+class BoxTests {
 public:
-    BoxTest(const SlabRay<R>& slabs, R t_min) : t_min_(t_min) {
+    /// The rays from `first` on, as many as L has lanes.
+    template <class L>
+    void set(std::size_t first, const SlabRay<L>& slabs, const L& t_min) {
+        using Index = IndexOf<L>;
+        store_lanes(t_min_ + first, t_min);
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            inverse_[axis] = slabs.inverse(axis);
-            const bool negative = inverse_[axis] < 0;
-            near_row_[axis] = axis + (negative ? 3 : 0);
-            far_row_[axis] = axis + (negative ? 0 : 3);
-            near_org_[axis] = negative ? slabs.high_org(axis) : slabs.low_org(axis);
-            far_org_[axis] = negative ? slabs.low_org(axis) : slabs.high_org(axis);
+            const MaskOf<L> negative = slabs.inverse(axis) < 0;
+            store_lanes(inverse_[axis] + first, slabs.inverse(axis));
+            store_lanes(near_org_[axis] + first, choose(negative, slabs.high_org(axis), slabs.low_org(axis)));
+            store_lanes(far_org_[axis] + first, choose(negative, slabs.low_org(axis), slabs.high_org(axis)));
+            const Index low(
+                static_cast<std::uint32_t>(bvh_width * axis)); // the upper bounds follow the lower
+            const Index high(static_cast<std::uint32_t>(bvh_width * (axis + 3)));
+            store_lanes(near_row_[axis] + first, choose(negative, high, low));
+            store_lanes(far_row_[axis] + first, choose(negative, low, high));
         }
     }
 
-    /// The children that the ray meets in [t_min, nearest], as bits, and where, but not before t_min.
-    unsigned operator()(const BvhNode& node, R nearest, R (&near)[bvh_width]) const {
+    /// The children that a ray meets in [t_min, nearest], as bits, and where, but not before t_min.
+    unsigned operator()(std::size_t ray, const BvhNode& node, R nearest, R (&near)[bvh_width]) const {
         unsigned met = 0;
-        const float* rows = &node.min[0][0]; // the upper bounds follow the lower ones
+        const float* rows = &node.min[0][0];
         for (int i = 0; i < bvh_width; i += lane_count<C>) {
-            C begin(t_min_), end(nearest);
+            C begin(t_min_[ray]), end(nearest);
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                const C first = load_lanes<C>(rows + bvh_width * near_row_[axis] + i);
-                const C last = load_lanes<C>(rows + bvh_width * far_row_[axis] + i);
-                begin = maximum(begin, (first - C(near_org_[axis])) * C(inverse_[axis]));
-                end = minimum(end, (last - C(far_org_[axis])) * C(inverse_[axis]));
+                const C first = load_lanes<C>(rows + near_row_[axis][ray] + i);
+                const C last = load_lanes<C>(rows + far_row_[axis][ray] + i);
+                const C inverse(inverse_[axis][ray]);
+                begin = maximum(begin, (first - C(near_org_[axis][ray])) * inverse);
+                end = minimum(end, (last - C(far_org_[axis][ray])) * inverse);
             }
             met |= bits(begin <= end) << i;
             store_lanes(near + i, begin);
@@ -104,10 +131,11 @@ public:
 
 private:
     using C = std::conditional_t<sizeof(R) <= sizeof(double), Pack<R, bvh_width>, R>;
+    using Row = std::conditional_t<sizeof(R) == sizeof(double), unsigned long long, unsigned>;
 
-    R t_min_;
-    std::array<R, 3> inverse_, near_org_, far_org_;
-    std::array<std::size_t, 3> near_row_, far_row_;
+    alignas(64) R t_min_[n];
+    R inverse_[3][n], near_org_[3][n], far_org_[3][n];
+    Row near_row_[3][n], far_row_[3][n];
 };
 
 } // namespace scc::runtime

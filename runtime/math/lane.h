@@ -61,6 +61,10 @@ template <std::floating_point L>
 constexpr void store_lanes(L* numbers, L x) {
     *numbers = x;
 }
+template <std::unsigned_integral Number>
+constexpr void store_lanes(Number* numbers, std::uint32_t x) {
+    *numbers = x;
+}
 template <std::floating_point T>
 constexpr T smallest(T x) {
     return x;

@@ -143,6 +143,10 @@ template <class T, int N>
 void store_lanes(T* numbers, const Pack<T, N>& x) {
     std::memcpy(numbers, &x.v, sizeof x.v);
 }
+template <class T, int N>
+void store_lanes(typename PackIndex<T, N>::Number* numbers, const PackIndex<T, N>& x) {
+    std::memcpy(numbers, &x.v, sizeof x.v);
+}
 
 namespace detail {
 

@@ -114,6 +114,33 @@ constexpr L distance_to_plane(const Vec3<N>& normal, const Vec3<V>& to_a, const 
     }
 }
 
+/// True wherever EdgeFunctions may find that a line passes through the triangle, and false almost everywhere
+/// else, for less: most triangles that a single ray is tested against it misses by far. `to_a` is the first
+/// corner relative to the ray's origin.
+template <class L>
+constexpr MaskOf<L> may_pass_through(const Corners<L>& corners, const Vec3<L>& to_a, const Vec3<L>& dir,
+                                     const L& tolerance_per_size) {
+    const Vec3<L> edge1 = corners.b - corners.a, edge2 = corners.c - corners.a;
+    const Vec3<L> moment = cross(to_a, dir);
+    const L v = dot(edge2, moment), w = -dot(edge1, moment);
+    const L u = dot(cross(edge1, edge2), dir) - v - w;
+    const L tolerance = tolerance_per_size * largest_component(maximum(absolute(edge1), absolute(edge2)));
+    return !((minimum(minimum(u, v), w) < -tolerance) & (maximum(maximum(u, v), w) > tolerance));
+}
+
+/// For may_pass_through: no corner's coordinate differs by more than `reach` from the ray's origin.
+///
+/// The products there are half the edge functions (Moeller, Trumbore, "Fast, Minimum Storage Ray/Triangle
+/// Intersection", 1997), of the corners themselves. In roundings of size * reach * dir_size, each may be off
+/// by 222: v and w by 45 (6 terms of 2, each 7 roundings), the slope by 84, the sum by 48. EdgeFunctions in
+/// float decide for corners that are off by a rounding of the reach, so that the line passes the triangle at
+/// most sqrt(3) times that away, which makes another 11; in double they forgive 96 of edges that may be twice
+/// and distances that may be three times as large, half of which is 288.
+template <class L>
+constexpr L tolerance_per_size(const L& dir_size, const L& reach) {
+    return 512 * roundoff<L>() * (dir_size * reach);
+}
+
 /// t where the ray meets the triangle, on either side of 0; infinity or NaN where it misses.
 template <class L>
 constexpr L intersect_triangle(const Corners<L>& corners, const Ray<L>& ray) {

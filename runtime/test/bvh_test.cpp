@@ -448,4 +448,113 @@ TYPED_TEST(Hierarchy, PacksThatAreTracedTogetherFindWhatSingleRaysFind) {
     }
 }
 
+/// Rays that have nothing in common, through a mesh of which every triangle is there twice: from outside and
+/// inside, with ends on the surface, and any number of packs.
+TYPED_TEST(Hierarchy, RaysThatTakeTurnsFindWhatEachFindsAlone) {
+    using R = TypeParam;
+    using L = WidestLane<R>;
+    if constexpr (lane_count<L> != 1) {
+        Random<R> random(16);
+        const MeshStorage once = ball_mesh(4, 20, {0, 0, 0});
+        std::vector<float> positions;
+        std::vector<std::uint32_t> indices;
+        for (const TrianglePlace& place : places_of(once)) {
+            const Corners<float> c = corners_at<float>(once.data(), place);
+            const auto first = static_cast<std::uint32_t>(positions.size() / 3);
+            for (const Vec3<float>& corner : {c.a, c.b, c.c}) {
+                positions.insert(positions.end(), {corner.x, corner.y, corner.z});
+            }
+            indices.insert(indices.end(), {first, first + 1, first + 2, first, first + 1, first + 2});
+        }
+        const MeshStorage mesh = build_mesh(positions, indices);
+        int hit_count = 0;
+        for (std::size_t count = 1; count <= most_packs; ++count) {
+            std::array<Ray<L>, most_packs> rays;
+            std::array<ShapeHit<L>, most_packs> hits, feeler_hits;
+            for (std::size_t p = 0; p < count; ++p) {
+                for (int i = 0; i < lane_count<L>; ++i) {
+                    Ray<R> ray = some_ray(random);
+                    if (i % 2 == 0) {
+                        ray.org = random.vector(0.4);
+                        ray.t_max = i % 4 == 0 ? nearest_in(mesh, ray).t : R(random.number(0, 2));
+                    } else if (i % 7 == 3) {
+                        ray.t_max = -1; // takes no part
+                    }
+                    const auto put = [&](Vec3<L>& to, const Vec3<R>& from) {
+                        set_lane(to.x, i, from.x);
+                        set_lane(to.y, i, from.y);
+                        set_lane(to.z, i, from.z);
+                    };
+                    put(rays[p].org, ray.org);
+                    put(rays[p].dir, ray.dir);
+                    set_lane(rays[p].t_max, i, ray.t_max);
+                }
+            }
+            std::array<Ray<L>, most_packs> closest = rays, feelers = rays;
+            const MeshData data = mesh.data();
+            intersect_mesh<false, L>(data, {closest.data(), count}, Apex::none, {hits.data(), count});
+            intersect_mesh<true, L>(data, {feelers.data(), count}, Apex::none, {feeler_hits.data(), count});
+            for (std::size_t p = 0; p < count; ++p) {
+                for_each_lane(rays[p], [&](int i, const Ray<R>& ray) {
+                    const ShapeHit<R> expected = nearest_in(mesh, ray);
+                    const bool is_hit = expected.t < infinity<R>();
+                    hit_count += is_hit ? 1 : 0;
+                    ASSERT_EQ(lane(hits[p].t, i), expected.t);
+                    ASSERT_TRUE(!is_hit || lane(hits[p].part, i) == expected.part);
+                    ASSERT_EQ(lane(feeler_hits[p].t, i) < infinity<R>(), is_hit);
+                });
+                for (unsigned idle = ~bits(is_active(rays[p])) & ((1U << lane_count<L>)-1); idle != 0;
+                     idle &= idle - 1) {
+                    ASSERT_EQ(lane(hits[p].t, __builtin_ctz(idle)), infinity<R>());
+                }
+            }
+        }
+        EXPECT_GT(hit_count, 200);
+    }
+}
+
+/// Rays along edges and through corners, moved by up to some roundings, past slivers and from far away.
+TYPED_TEST(Hierarchy, TheQuickTestRulesOutNoTriangleThatTheExactOneMeets) {
+    using R = TypeParam;
+    Random<R> random(17);
+    int met_count = 0, far_count = 0, far_passed = 0;
+    for (int i = 0; i < 200000; ++i) {
+        const R size = std::ldexp(R(1), i % 12 - 8);
+        const R offset = i % 3 == 0 ? R(0) : i % 3 == 1 ? R(10) : R(300);
+        Corners<R> c;
+        c.a = random.vector(1) * offset;
+        c.b = c.a + random.vector(1) * size;
+        c.c = c.a + random.vector(1) * size;
+        if (i % 5 == 0) { // a sliver
+            c.c = c.a + (c.b - c.a) * random.number(0, 1) + random.vector(1) * (size * R(1e-4));
+        }
+        const Vec3<R> org = random.vector(3) * (i % 2 == 0 ? R(1) : R(50));
+        const R s = random.number(0, 1);
+        const Vec3<R> on_edge = c.b + (c.c - c.b) * s;
+        const R reach = largest_component(
+            maximum(maximum(absolute(c.a - org), absolute(c.b - org)), absolute(c.c - org)));
+        const Vec3<R> target = on_edge + random.vector(4) * (roundoff<R>() * reach);
+        const Vec3<R> dir = (target - org) * random.number(0.1, 10);
+        const R dir_size = largest_component(absolute(dir));
+        const Corners<R> relative = relative_to(org, c);
+        const EdgeFunctions<R> edges(TriangleView<R>(relative), dir, dir_size);
+        const R tolerance = tolerance_per_size(dir_size, reach);
+        if (edges.may_pass() && edges.pass(true, dir, [&](int) { return relative; })) {
+            ++met_count;
+            ASSERT_TRUE(may_pass_through(c, relative.a, dir, tolerance));
+        }
+        if (size > R(0.01) * reach && i % 5 != 0) {
+            const Vec3<R> beside = c.a + (on_edge - c.a) * R(1.5) - org;
+            ++far_count;
+            far_passed += may_pass_through(c, relative.a, beside,
+                                           tolerance_per_size(largest_component(absolute(beside)), reach))
+                              ? 1
+                              : 0;
+        }
+    }
+    EXPECT_GT(met_count, 50000);
+    EXPECT_GT(far_count, 10000);
+    EXPECT_LT(far_passed, far_count / 50);
+}
+
 } // namespace

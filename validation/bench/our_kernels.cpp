@@ -4,8 +4,10 @@
 #include "runtime/math/pack.h"
 #include "runtime/raycast.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
+#include <span>
 
 namespace scc::bench {
 
@@ -146,8 +148,18 @@ void OurMesh::occluded(const Rays& rays, std::vector<std::uint8_t>& blocked, int
 
 void OurMesh::closest(const Rays& rays, Hits& hits, int threads) const {
     for_each_tile(rays.size(), threads, [&](std::size_t first, std::size_t last) {
-        for (; first < last; first += lane_count<L>) {
-            scene_->store(closest_hit(scene_->scene, load_rays(rays, first)), hits, first);
+        while (first < last) {
+            const std::size_t count = std::min<std::size_t>(most_packs, (last - first) / lane_count<L>);
+            std::array<Ray<L>, most_packs> packs;
+            std::array<Hit<L>, most_packs> found;
+            for (std::size_t p = 0; p < count; ++p) {
+                packs[p] = load_rays(rays, first + p * lane_count<L>);
+            }
+            closest_hits<most_packs, MeshScene, L>(scene_->scene, std::span(packs).first(count), Apex::none,
+                                                   std::span(found).first(count));
+            for (std::size_t p = 0; p < count; ++p, first += lane_count<L>) {
+                scene_->store(found[p], hits, first);
+            }
         }
     });
 }

@@ -52,7 +52,7 @@ constexpr Feature features[] = {
     {"Scene::bare_box", "box { }\n"},
     {"Scene::bare_cylinder", "cylinder { }\n"},
     {"Scene::bare_disc", "disc { }\n"},
-    {"intersect_mesh", "mesh { file = \"m.obj\" }\n"},
+    {"RaysInMesh", "mesh { file = \"m.obj\" }\n"},
     {"Scene::function_constants",
      "sphere { material = phong { diffuse = fn(s: surface) = rgb(sin(s.p.x), 0.5, 0.5) } }\n"},
     {"Scene::directional_lights", "directional_light { direction = (0, -1, 0) }\n"},
@@ -69,7 +69,8 @@ TEST_F(BuiltProgram, HoldsNoCodeForWhatItsSceneLacks) {
         EXPECT_EQ(has(names, feature.symbol), std::string(feature.symbol) == "Scene::bare_sphere")
             << feature.symbol;
     }
-    for (const char* other : {"Pack<double", "BvhBuilder", "traverse", "OpenImageIO", "CLI::", "fmt::"}) {
+    for (const char* other :
+         {"Pack<double", "BvhBuilder", "traverse", "RaysInTurns", "OpenImageIO", "CLI::", "fmt::"}) {
         EXPECT_FALSE(has(names, other)) << other;
     }
 }
