@@ -303,7 +303,7 @@ private:
     void test_mesh(const PrimitiveOfKind<R, kind>& primitive, std::uint32_t index, unsigned packs) {
         std::array<Ray<L>, N> rays;
         std::array<ShapeHit<L>, N> found;
-        std::array<std::size_t, N> from;
+        std::array<std::size_t, N> from{};
         std::size_t count = 0;
         for (packs &= live_; packs != 0; packs &= packs - 1) {
             from[count] = static_cast<std::size_t>(__builtin_ctz(packs));

@@ -130,7 +130,6 @@ TYPED_TEST(BoundedShape, HitIsInsideTheBounds) {
 }
 
 TYPED_TEST(ShapeWithFormula, HitIsOnTheSurfaceWithinTheStatedBound) {
-    using R = typename RealOfShape<TypeParam>::type;
     this->for_hits(400, [&](const auto& single, auto&, const auto&, const auto&, const auto& at) {
         const Affine<long double> map = affine_cast<long double>(single.world_from_object);
         const Affine<long double> back = inverse(map);
@@ -142,7 +141,6 @@ TYPED_TEST(ShapeWithFormula, HitIsOnTheSurfaceWithinTheStatedBound) {
 }
 
 TYPED_TEST(ShapeWithFormula, NormalIsTheNormalisedGradient) {
-    using R = typename RealOfShape<TypeParam>::type;
     this->for_hits(100, [&](const auto& single, auto&, const auto&, const auto&, const auto& at) {
         const Wide p = lanes<long double>(at.object_point);
         const Wide unit = normalize(transform_normal(affine_cast<long double>(single.world_from_object),
