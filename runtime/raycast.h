@@ -202,43 +202,64 @@ public:
                            return test_leaf(first, count, 1);
                        });
         } else {
+            // Rays with a common end fill their beam better than others.
+            const float most_spread = (apex_ == Apex::end ? 2 : 1) * accelerator.most_spread;
             BeamSet<L> beams;
-            if (beams.gather(rays_, apex_, accelerator.box)) {
-                beams_ = &beams;
-                traverse_beams(
-                    accelerator.nodes.data(), beams, [](const BvhLeaf&) {},
-                    [&](unsigned packs, std::uint32_t first, std::uint32_t count) {
-                        return test_leaf(first, count, packs);
-                    });
-            } else if constexpr (N > 1) {
-                for (unsigned left = live_; left != 0; left &= left - 1) {
-                    const auto i = static_cast<std::size_t>(__builtin_ctz(left));
-                    Search<AnyHit, S, L, 1>(scene_, rays_.subspan(i, 1), apex_, results_.subspan(i, 1))
-                        .test_hierarchy();
+            for (unsigned left = live_; left != 0;) {
+                unsigned gathered = beams.gather_some(rays_, left, apex_, accelerator.box);
+                if (const unsigned first = left & -left; (gathered & first) == 0) {
+                    test_rays_of(first);
+                    left &= ~first;
                 }
-            } else if (accelerator.primitives.size() <= most_without_order) {
-                test_leaf(0, static_cast<std::uint32_t>(accelerator.primitives.size()), live_);
-            } else {
-                for_each_lane(rays_[0], [&](int i, Ray<R> ray) { test_hierarchy_with(ray, i); });
+                left &= ~gathered;
+                while (gathered != 0) {
+                    const unsigned joined = beams.join(gathered, most_spread);
+                    if (joined != 0) {
+                        test_beams(beams);
+                        gathered &= ~joined;
+                    } else {
+                        test_rays_of(gathered & -gathered);
+                        gathered &= gathered - 1;
+                    }
+                }
             }
         }
     }
 
 private:
+    /// Packs whose rays run alike.
+    void test_beams(BeamSet<L>& beams) {
+        beams_ = &beams;
+        traverse_beams(
+            scene_.accelerator.nodes.data(), beams, [](const BvhLeaf&) {},
+            [&](unsigned packs, std::uint32_t first, std::uint32_t count) {
+                return test_leaf(first, count, packs);
+            });
+        beams_ = nullptr;
+    }
+    /// A pack (as a bit) whose rays run apart.
+    void test_rays_of(unsigned pack) {
+        const auto i = static_cast<std::size_t>(__builtin_ctz(pack));
+        if (const std::size_t count = scene_.accelerator.primitives.size(); count <= most_without_order) {
+            test_leaf(0, static_cast<std::uint32_t>(count), pack);
+        } else {
+            for_each_lane(rays_[i], [&](int k, Ray<R> ray) { test_hierarchy_with(ray, i, k); });
+        }
+    }
     /// One lane's ray by itself.
-    void test_hierarchy_with(Ray<R>& ray, int i) {
+    void test_hierarchy_with(Ray<R>& ray, std::size_t pack, int i) {
         if constexpr (AnyHit) {
             bool blocked = false;
             Search<AnyHit, S, R, 1>(scene_, {&ray, 1}, Apex::none, {&blocked, 1}).test_hierarchy();
             if (blocked) {
-                set_lane(rays_[0].t_max, i, -infinity<R>());
-                set_lane(results_[0], i, true);
+                set_lane(rays_[pack].t_max, i, -infinity<R>());
+                set_lane(results_[pack], i, true);
             }
         } else {
-            Hit<R> hit = lane(results_[0], i);
+            Hit<R> hit = lane(results_[pack], i);
             Search<AnyHit, S, R, 1>(scene_, {&ray, 1}, Apex::none, {&hit, 1}).test_hierarchy();
-            set_lane(rays_[0].t_max, i, ray.t_max);
-            set_lane(results_[0], i, hit);
+            set_lane(rays_[pack].t_max, i, ray.t_max);
+            set_lane(results_[pack], i, hit);
         }
     }
 

@@ -112,6 +112,7 @@ struct Accelerator {
     std::vector<BvhNode> nodes;
     std::vector<PrimitiveRef> primitives; ///< in the order of the leaves
     Bounds<float> box;
+    float most_spread = 0; ///< of the slopes of rays that go through it as one beam
 };
 
 /// Names one of a scene's tables of primitives.

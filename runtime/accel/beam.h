@@ -67,6 +67,43 @@ L by_sign(const L& where, const L& a, const L& b) {
 
 } // namespace detail
 
+namespace detail {
+
+/// f(a's member, b's member) for each of two beams.
+template <class A, class B, class F>
+void for_each_bound(A& a, B& b, F&& f) {
+    f(a.near, b.near);
+    f(a.far, b.far);
+    for (int i = 0; i < 2; ++i) {
+        f(a.low[i], b.low[i]);
+        f(a.high[i], b.high[i]);
+        f(a.low_slope[i], b.low_slope[i]);
+        f(a.high_slope[i], b.high_slope[i]);
+    }
+}
+
+} // namespace detail
+
+inline Beam<float> lane(const Beam<PackLanes>& beams, int i) {
+    Beam<float> result;
+    detail::for_each_bound(result, beams, [&](float& to, const PackLanes& from) { to = lane(from, i); });
+    return result;
+}
+inline void set_lane(Beam<PackLanes>& beams, int i, const Beam<float>& beam) {
+    detail::for_each_bound(beams, beam, [&](PackLanes& to, float from) { set_lane(to, i, from); });
+}
+/// The beam around two.
+inline Beam<float> hull(const Beam<float>& a, const Beam<float>& b) {
+    Beam<float> result{minimum(a.near, b.near), maximum(a.far, b.far)};
+    for (int i = 0; i < 2; ++i) {
+        result.low[i] = minimum(a.low[i], b.low[i]);
+        result.high[i] = maximum(a.high[i], b.high[i]);
+        result.low_slope[i] = minimum(a.low_slope[i], b.low_slope[i]);
+        result.high_slope[i] = maximum(a.high_slope[i], b.high_slope[i]);
+    }
+    return result;
+}
+
 /// Which boxes a beam meets, or which beams a box: F or B is L, the other may be float. `near` becomes the
 /// depth at which they meet at the earliest. Errs on the side of meeting, also with NaN.
 template <class L, class F, class B>
@@ -92,9 +129,19 @@ class BeamSet {
 public:
     using R = RealOf<L>;
 
-    /// Whether the rays run alike enough; only then may the rest be called. The boxes to be tested lie within
-    /// `root`.
-    bool gather(std::span<const Ray<L>> rays, Apex apex, const Bounds<float>& root);
+    /// Makes the beams of those of the packs (as bits) that run along one axis as the first with an active
+    /// ray does, and returns them. The boxes to be tested lie within `root`.
+    unsigned gather_some(std::span<const Ray<L>> rays, unsigned packs, Apex apex, const Bounds<float>& root);
+    /// Of gathered packs those that run as the first of them does, with slopes that differ by `most_spread`
+    /// at most (or seen from a common origin): the rest may be called for these. None if the first pack's own
+    /// rays run apart.
+    unsigned join(unsigned packs, float most_spread);
+    /// Whether all rays run alike.
+    bool gather(std::span<const Ray<L>> rays, Apex apex, const Bounds<float>& root) {
+        const unsigned packs = (1U << rays.size()) - 1;
+        return gather_some(rays, packs, apex, root) == packs &&
+               join(packs, rays.size() > 1 ? most_spread_of_packs : most_spread_of_pack) == packs;
+    }
 
     const BeamFrame& frame() const { return frame_; }
     const Beam<float>& all() const { return all_; }
@@ -110,7 +157,7 @@ public:
     }
     /// At least every coordinate of the rays' ends and of the root box.
     float scale() const { return scale_; }
-    /// The packs that still have rays to trace and whose beams meet the box of the node's child, as bits.
+    /// The joined packs that still have rays to trace and whose beams meet the box of the node's child.
     unsigned packs_in(const BvhNode& node, std::uint32_t slot) const {
         const float min[3] = {node.min[0][slot], node.min[1][slot], node.min[2][slot]};
         const float max[3] = {node.max[0][slot], node.max[1][slot], node.max[2][slot]};
@@ -125,9 +172,8 @@ public:
 
 private:
     /// Steeper or more spread rays are traced in smaller parts. Those from one point fill their beam, so that
-    /// little in it is tested in vain; for others these are the best of a few that were tried on scenes with
-    /// thousands of spheres and triangles.
-    static constexpr float steepest = 4, most_spread_of_view = 0.6F, most_spread = 0.02F,
+    /// little in it is tested in vain; for others, in meshes, these are the best of a few that were tried.
+    static constexpr float steepest = 4, most_spread_of_view = 0.6F, most_spread_of_packs = 0.02F,
                            most_spread_of_pack = 0.07F;
 
     /// A ray, or its reverse from the common end.
@@ -150,7 +196,7 @@ private:
         const L end = depth(ray.org) + ray.t_max * depth(ray.dir);
         return static_cast<float>(largest(choose(ray.active, end, -infinity<L>()))) - frame_.start + pad_;
     }
-    bool choose_frame(std::span<const Ray<L>> rays);
+    bool choose_frame(std::span<const Ray<L>> rays, unsigned packs);
     bool add(int pack, const Seen& ray);
 
     Apex apex_ = Apex::none;
@@ -158,50 +204,79 @@ private:
     float scale_ = 0, pad_ = 0;
     Beam<float> all_;
     Beam<PackLanes> each_;
+    PackLanes ends_; ///< each_.far as gathered
 };
 
 template <class L>
-bool BeamSet<L>::gather(std::span<const Ray<L>> rays, Apex apex, const Bounds<float>& root) {
+unsigned BeamSet<L>::gather_some(std::span<const Ray<L>> rays, unsigned packs, Apex apex,
+                                 const Bounds<float>& root) {
     apex_ = apex;
-    if (!choose_frame(rays)) {
-        return false;
+    each_ = {};
+    if (!choose_frame(rays, packs)) {
+        return 0;
     }
     L size(0), start = infinity<L>();
-    for (const Ray<L>& ray : rays) {
+    unsigned usable = 0;
+    for (unsigned left = packs; left != 0; left &= left - 1) {
+        const Ray<L>& ray = rays[static_cast<std::size_t>(__builtin_ctz(left))];
         const Seen here = seen(ray);
         if (any(here.active & !(depth(here.dir) > 0))) {
-            return false;
+            continue;
         }
+        usable |= left & -left;
         const Vec3<L> ends = maximum(absolute(here.org), absolute(ray.org)); // which differ for a common end
         size = maximum(size, choose(here.active, largest_component(ends), L(0)));
         start = minimum(start, choose(here.active, depth(here.org), infinity<L>()));
     }
     scale_ = static_cast<float>(largest(size)) +
              largest_component(maximum(absolute(root.min), absolute(root.max)));
+    if (!(scale_ < 1e30F)) {
+        return 0;
+    }
     frame_.start = static_cast<float>(smallest(start));
     // What the intercepts, the slopes and the test itself lose, and twice what SlabRay adds: 128 roundings.
     pad_ = 64 * std::numeric_limits<float>::epsilon() * scale_;
-    if (!(scale_ < 1e30F)) {
-        return false;
-    }
-    all_ = {};
-    each_ = {};
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        if (!add(static_cast<int>(i), seen(rays[i]))) {
-            return false;
+    for (unsigned left = usable; left != 0; left &= left - 1) {
+        const int pack = __builtin_ctz(left);
+        if (!add(pack, seen(rays[static_cast<std::size_t>(pack)]))) {
+            usable &= ~(left & -left);
         }
     }
-    const float most = apex == Apex::origin ? most_spread_of_view
-                       : rays.size() > 1    ? most_spread
-                                            : most_spread_of_pack;
-    return all_.high_slope[0] - all_.low_slope[0] <= most && all_.high_slope[1] - all_.low_slope[1] <= most;
+    ends_ = each_.far;
+    return usable;
+}
+
+template <class L>
+unsigned BeamSet<L>::join(unsigned packs, float most_spread) {
+    const float most = apex_ == Apex::origin ? most_spread_of_view : most_spread;
+    const auto is_narrow = [&](const Beam<float>& beam) {
+        return beam.high_slope[0] - beam.low_slope[0] <= most &&
+               beam.high_slope[1] - beam.low_slope[1] <= most;
+    };
+    all_ = {};
+    unsigned joined = 0;
+    for (unsigned left = packs; left != 0; left &= left - 1) {
+        const unsigned one = left & -left;
+        const Beam<float> both = hull(all_, lane(each_, __builtin_ctz(left)));
+        if (is_narrow(both)) {
+            all_ = both;
+            joined |= one;
+        } else if (joined == 0) {
+            return 0;
+        }
+    }
+    for (int pack = 0; pack < most_packs; ++pack) {
+        set_lane(each_.far, pack, (joined >> pack & 1U) != 0 ? lane(ends_, pack) : -infinity<float>());
+    }
+    all_.far = largest(each_.far);
+    return joined;
 }
 
 /// Takes the axis along which some ray of the beam runs most.
 template <class L>
-bool BeamSet<L>::choose_frame(std::span<const Ray<L>> rays) {
-    for (const Ray<L>& ray : rays) {
-        const Seen here = seen(ray);
+bool BeamSet<L>::choose_frame(std::span<const Ray<L>> rays, unsigned packs) {
+    for (unsigned left = packs; left != 0; left &= left - 1) {
+        const Seen here = seen(rays[static_cast<std::size_t>(__builtin_ctz(left))]);
         if (none(here.active)) {
             continue;
         }
@@ -215,6 +290,7 @@ bool BeamSet<L>::choose_frame(std::span<const Ray<L>> rays) {
     return false;
 }
 
+/// Whether the pack's slopes stay moderate; only then is it added.
 template <class L>
 bool BeamSet<L>::add(int pack, const Seen& ray) {
     if (none(ray.active)) {
@@ -229,32 +305,23 @@ bool BeamSet<L>::add(int pack, const Seen& ray) {
     };
     const bool from_apex = apex_ == Apex::origin; // then all start at depth 0
     const L gone = from_apex ? L(0) : depth(ray.org) - L(static_cast<R>(frame_.start));
-    const float near = (from_apex ? 0 : low(gone)) - pad_;
-    const float far = far_of(ray);
-    set_lane(each_.near, pack, near);
-    set_lane(each_.far, pack, far);
-    all_.near = minimum(all_.near, near);
-    all_.far = maximum(all_.far, far);
+    Beam<float> beam;
+    beam.near = (from_apex ? 0 : low(gone)) - pad_;
+    beam.far = far_of(ray);
     for (int i = 0; i < 2; ++i) {
         const L slope = detail::component(ray.dir, frame_.across(i)) * inverse;
-        const float low_slope = low(slope), high_slope = high(slope);
-        if (!(low_slope >= -steepest && high_slope <= steepest)) {
+        beam.low_slope[i] = low(slope);
+        beam.high_slope[i] = high(slope);
+        if (!(beam.low_slope[i] >= -steepest && beam.high_slope[i] <= steepest)) {
             return false;
         }
         const L& org = detail::component(ray.org, frame_.across(i));
         const L from = org - slope * gone;
         const float start = from_apex ? static_cast<float>(lane(org, 0)) : 0;
-        const float values[] = {(from_apex ? start : low(from)) - pad_,
-                                (from_apex ? start : high(from)) + pad_, low_slope, high_slope};
-        set_lane(each_.low[i], pack, values[0]);
-        set_lane(each_.high[i], pack, values[1]);
-        set_lane(each_.low_slope[i], pack, values[2]);
-        set_lane(each_.high_slope[i], pack, values[3]);
-        all_.low[i] = minimum(all_.low[i], values[0]);
-        all_.high[i] = maximum(all_.high[i], values[1]);
-        all_.low_slope[i] = minimum(all_.low_slope[i], values[2]);
-        all_.high_slope[i] = maximum(all_.high_slope[i], values[3]);
+        beam.low[i] = (from_apex ? start : low(from)) - pad_;
+        beam.high[i] = (from_apex ? start : high(from)) + pad_;
     }
+    set_lane(each_, pack, beam);
     return true;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <span>
 #include <utility>
 #include <vector>
@@ -107,6 +108,16 @@ inline MeshStorage build_mesh(std::span<const float> positions, std::span<const 
     return mesh;
 }
 
+namespace detail {
+
+/// How wide a beam may be: the more shapes there are, the smaller is what lies between them. The best of what
+/// was tried on scenes of 300 to 16000 shapes.
+inline float spread_for(std::size_t shapes) {
+    return std::clamp(2 / std::sqrt(static_cast<float>(shapes)), 0.01F, 0.15F);
+}
+
+} // namespace detail
+
 /// The hierarchy over the scene's bounded shapes, however few.
 template <SceneModel S>
 Accelerator build_accelerator(const S& scene, const BuildOptions& options = {}) {
@@ -117,9 +128,11 @@ Accelerator build_accelerator(const S& scene, const BuildOptions& options = {}) 
             box_ref(round_outwards(bounds_of(scene, primitive)), static_cast<std::uint32_t>(refs.size())));
         refs.push_back({kind, index});
     });
-    Bvh bvh = build_bvh(std::move(boxes), options.threads, options.quality);
+    // One in a leaf: a box that most rays and whole beams miss costs far less than a shape's own test.
+    Bvh bvh = build_bvh(std::move(boxes), options.threads, options.quality, 1);
     Accelerator result;
     result.box = detail::root_bounds(bvh.nodes);
+    result.most_spread = detail::spread_for(refs.size());
     result.nodes = std::move(bvh.nodes);
     result.primitives.reserve(refs.size());
     for (const std::uint32_t i : bvh.order) {

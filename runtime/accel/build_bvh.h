@@ -103,9 +103,9 @@ struct Box4 {
 /// result depends on the boxes and their order alone, not on the number of threads.
 class BvhBuilder {
 public:
-    BvhBuilder(std::vector<BoxRef> refs, int threads, BuildQuality quality)
+    BvhBuilder(std::vector<BoxRef> refs, int threads, BuildQuality quality, std::size_t most_in_leaf)
         : refs_{std::move(refs), std::vector<BoxRef>(refs_[0].size())}, order_(refs_[0].size()),
-          threads_(threads), quality_(quality) {}
+          threads_(threads), quality_(quality), most_in_leaf_(most_in_leaf) {}
 
     Bvh build() {
         Bvh bvh;
@@ -199,7 +199,7 @@ private:
             std::size_t widest = bvh_width;
             float area = -1;
             for (std::size_t i = 0; i < count; ++i) {
-                if (children[i].size() > bvh_max_leaf && !(children[i].box.half_area() <= area)) {
+                if (children[i].size() > most_in_leaf_ && !(children[i].box.half_area() <= area)) {
                     area = children[i].box.half_area();
                     widest = i;
                 }
@@ -219,7 +219,7 @@ private:
         }
         for (std::size_t i = 0; i < count; ++i) {
             const Range& child = children[i];
-            if (child.size() <= bvh_max_leaf) {
+            if (child.size() <= most_in_leaf_) {
                 nodes[node].child[i] = make_leaf(child);
             } else if (tasks != nullptr && child.size() <= task_size) {
                 tasks->push_back({child, node, static_cast<int>(i), depths[i]});
@@ -341,8 +341,8 @@ private:
         }
     }
 
-    static void evaluate_axis(const std::array<Bin, most_bins>& bins, int axis, std::size_t size, int count,
-                              Split& best) {
+    void evaluate_axis(const std::array<Bin, most_bins>& bins, int axis, std::size_t size, int count,
+                       Split& best) const {
         std::array<float, most_bins> right_cost;
         Box4 right;
         std::size_t right_count = 0;
@@ -376,8 +376,8 @@ private:
             }
         }
     }
-    static float cost(float half_area, std::size_t count) {
-        return half_area * static_cast<float>((count + bvh_max_leaf - 1) / bvh_max_leaf);
+    float cost(float half_area, std::size_t count) const {
+        return half_area * static_cast<float>((count + most_in_leaf_ - 1) / most_in_leaf_);
     }
 
     /// From one array into the other: the left part from the front, the right part from the back.
@@ -482,13 +482,15 @@ private:
     std::vector<Task> tasks_;
     int threads_;
     BuildQuality quality_;
+    std::size_t most_in_leaf_;
 };
 
 } // namespace detail
 
-/// At most bvh_most_primitives boxes.
-inline Bvh build_bvh(std::vector<BoxRef> refs, int threads = 1, BuildQuality quality = BuildQuality::high) {
-    return detail::BvhBuilder(std::move(refs), threads, quality).build();
+/// At most bvh_most_primitives boxes, most_in_leaf <= bvh_max_leaf of them in a leaf.
+inline Bvh build_bvh(std::vector<BoxRef> refs, int threads = 1, BuildQuality quality = BuildQuality::high,
+                     std::size_t most_in_leaf = bvh_max_leaf) {
+    return detail::BvhBuilder(std::move(refs), threads, quality, most_in_leaf).build();
 }
 
 } // namespace scc::runtime

@@ -137,7 +137,7 @@ template <class L>
 requires(lane_count<L> > 1) L load_lanes(const float* numbers) {
     detail::VectorType<float, lane_count<L>> loaded;
     std::memcpy(&loaded, numbers, sizeof loaded);
-    return L(__builtin_convertvector(loaded, typename L::Vector));
+    return L(detail::converted<typename L::Vector>(loaded));
 }
 template <class T, int N>
 void store_lanes(T* numbers, const Pack<T, N>& x) {

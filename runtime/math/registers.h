@@ -1,8 +1,8 @@
 #pragma once
 
-/// What the compiler's vectors cannot say by themselves: sign bits and square roots of whole registers, for
-/// the targets that have them. The builtins and not <immintrin.h>, which costs more time to compile than
-/// everything else here.
+/// What the compiler's vectors cannot say by themselves: sign bits, square roots and widening of whole
+/// registers, for the targets that have them. The builtins and not <immintrin.h>, which costs more time to
+/// compile than everything else here.
 namespace scc::runtime::detail {
 
 /// The compiler's vectors (g++ and clang have the same), since loops over arrays are not kept in registers.
@@ -67,6 +67,23 @@ inline VectorType<float, 16> vector_root(VectorType<float, 16> x) {
 #endif
 }
 #endif
+
+/// The same numbers in another vector type. clang widens a whole register at once by itself, g++ 12 its
+/// halves.
+template <class To, class From>
+To converted(From x) {
+#if defined(__AVX2__) && !defined(__clang__)
+    if constexpr (sizeof(To) == 32 && sizeof(From) == 16) {
+        return __builtin_ia32_cvtps2pd256(x);
+    }
+#endif
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && !defined(__clang__)
+    if constexpr (sizeof(To) == 64 && sizeof(From) == 32) {
+        return __builtin_ia32_cvtps2pd512_mask(x, To{}, -1, current_rounding);
+    }
+#endif
+    return __builtin_convertvector(x, To);
+}
 
 /// Bytes of the widest registers that the program is compiled for.
 #if defined(__AVX512F__) && defined(__AVX512DQ__)

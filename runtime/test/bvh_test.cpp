@@ -371,7 +371,33 @@ TYPED_TEST(Hierarchy, LanesFindWhatSingleRaysFind) {
     }
 }
 
-/// Blocks of rays that run alike: from one point, to one point, side by side, and off a curved mirror.
+TYPED_TEST(Hierarchy, PacksAreJoinedToBeamsAsFarAsTheyRunAlike) {
+    using R = TypeParam;
+    using L = WidestLane<R>;
+    if constexpr (lane_count<L> != 1) {
+        const Vec3<R> directions[] = {{0, 0, 1}, {1, 0, 2}, {0, 0, -1}, {0, 1, 0}};
+        std::array<Ray<L>, 8> rays;
+        for (std::size_t p = 0; p < rays.size(); ++p) {
+            rays[p].dir = lanes<L>(directions[p % 4]);
+        }
+        const Bounds<float> root{{-1, -1, -1}, {1, 1, 1}};
+        set_lane(rays[7].dir.x, 0, R(0.3)); // apart from its own
+        BeamSet<L> beams;
+        EXPECT_EQ(beams.gather_some(rays, 0b11111111, Apex::none, root), 0b00110011U);
+        EXPECT_EQ(beams.join(0b00110011, 0.1F), 0b00010001U);
+        EXPECT_EQ(beams.join(0b00100010, 0.1F), 0b00100010U);
+        EXPECT_EQ(beams.join(0b00110011, 0.6F), 0b00110011U);
+        EXPECT_EQ(beams.gather_some(rays, 0b11001100, Apex::none, root), 0b01000100U);
+        EXPECT_EQ(beams.gather_some(rays, 0b10001000, Apex::none, root), 0b10001000U);
+        EXPECT_EQ(beams.join(0b10001000, 0.1F), 0b00001000U);
+        EXPECT_EQ(beams.join(0b10000000, 0.1F), 0U);
+        EXPECT_FALSE(beams.gather(rays, Apex::none, root));
+        EXPECT_TRUE(beams.gather(std::span(rays).first(1), Apex::none, root));
+    }
+}
+
+/// Blocks of rays that run alike: from one point, to one point, side by side, and off a curved mirror; and,
+/// every third time, of packs in three such bundles.
 TYPED_TEST(Hierarchy, PacksThatAreTracedTogetherFindWhatSingleRaysFind) {
     using R = TypeParam;
     using L = WidestLane<R>;
@@ -386,6 +412,8 @@ TYPED_TEST(Hierarchy, PacksThatAreTracedTogetherFindWhatSingleRaysFind) {
         for (int round = 0; round < 800; ++round) {
             const int kind = round % 4;
             const Vec3<R> org = random.vector(14), dir = random.direction();
+            const Vec3<R> directions[] = {dir, round % 3 == 0 ? random.direction() : dir,
+                                          round % 3 == 0 ? random.direction() : dir};
             const R spread = random.number(R(0.001), R(0.4));
             const R distance = round % 8 == 1 ? R(10) : R(1000); // from the common end to the starts
             std::array<Ray<L>, most_packs> rays;
@@ -394,13 +422,13 @@ TYPED_TEST(Hierarchy, PacksThatAreTracedTogetherFindWhatSingleRaysFind) {
             for (std::size_t p = 0; p < most_packs; ++p) {
                 blocked[p] = MaskOf<L>(false);
                 for (int i = 0; i < lane_count<L>; ++i) {
-                    Ray<R> ray{org, dir + random.vector(spread)};
+                    Ray<R> ray{org, directions[p % 3] + random.vector(spread)};
                     if (kind == 1) {
                         ray.org = org + ray.dir * distance;
                         ray.dir = org - ray.org;
                         ray.t_max = R(0.99);
                     } else if (kind == 2) {
-                        ray = {org + random.vector(spread), dir};
+                        ray = {org + random.vector(spread), directions[p % 3]};
                     } else if (kind == 3) {
                         ray.org = org + random.vector(spread);
                     }
