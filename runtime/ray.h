@@ -14,16 +14,12 @@ struct Ray {
     L t_max = infinity<L>();
 };
 
-/// f(lane, its ray) for the lanes that take part: a lane with t_max < t_min does not.
-template <class L, class F>
-void for_each_lane(const Ray<L>& ray, F&& f) {
-    for (unsigned left = bits(ray.t_max >= ray.t_min); left != 0; left &= left - 1) {
-        const int i = __builtin_ctz(left);
-        f(i, Ray<RealOf<L>>{{lane(ray.org.x, i), lane(ray.org.y, i), lane(ray.org.z, i)},
-                            {lane(ray.dir.x, i), lane(ray.dir.y, i), lane(ray.dir.z, i)},
-                            lane(ray.t_min, i),
-                            lane(ray.t_max, i)});
-    }
+template <class L>
+Ray<RealOf<L>> lane(const Ray<L>& ray, int i) {
+    return {{lane(ray.org.x, i), lane(ray.org.y, i), lane(ray.org.z, i)},
+            {lane(ray.dir.x, i), lane(ray.dir.y, i), lane(ray.dir.z, i)},
+            lane(ray.t_min, i),
+            lane(ray.t_max, i)};
 }
 
 /// What a shape's `intersect` returns. `part` tells the shape's `surface` which of its pieces was hit.

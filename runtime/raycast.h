@@ -157,6 +157,7 @@ class Search {
 public:
     using R = typename S::Real;
     using Result = std::conditional_t<AnyHit, MaskOf<L>, Hit<L>>;
+    using RealResult = std::conditional_t<AnyHit, bool, Hit<R>>;
 
     Search(const S& scene, std::span<Ray<L>> rays, Apex apex, std::span<Result> results,
            Candidates candidates = all_candidates)
@@ -205,24 +206,23 @@ public:
             // Rays with a common end fill their beam better than others.
             const float most_spread = (apex_ == Apex::end ? 2 : 1) * accelerator.most_spread;
             BeamSet<L> beams;
+            unsigned apart = 0;
             for (unsigned left = live_; left != 0;) {
                 unsigned gathered = beams.gather_some(rays_, left, apex_, accelerator.box);
-                if (const unsigned first = left & -left; (gathered & first) == 0) {
-                    test_rays_of(first);
-                    left &= ~first;
-                }
-                left &= ~gathered;
+                apart |= left & -left & ~gathered;
+                left &= ~(gathered | apart);
                 while (gathered != 0) {
                     const unsigned joined = beams.join(gathered, most_spread);
                     if (joined != 0) {
                         test_beams(beams);
                         gathered &= ~joined;
                     } else {
-                        test_rays_of(gathered & -gathered);
+                        apart |= gathered & -gathered;
                         gathered &= gathered - 1;
                     }
                 }
             }
+            test_rays_of(apart);
         }
     }
 
@@ -237,29 +237,62 @@ private:
             });
         beams_ = nullptr;
     }
-    /// A pack (as a bit) whose rays run apart.
-    void test_rays_of(unsigned pack) {
-        const auto i = static_cast<std::size_t>(__builtin_ctz(pack));
+    /// Packs whose rays run apart.
+    void test_rays_of(unsigned packs) {
         if (const std::size_t count = scene_.accelerator.primitives.size(); count <= most_without_order) {
-            test_leaf(0, static_cast<std::uint32_t>(count), pack);
-        } else {
-            for_each_lane(rays_[i], [&](int k, Ray<R> ray) { test_hierarchy_with(ray, i, k); });
+            if (packs != 0) {
+                test_leaf(0, static_cast<std::uint32_t>(count), packs);
+            }
+            return;
+        }
+        while (packs != 0) {
+            test_in_turns(packs);
         }
     }
-    /// One lane's ray by itself.
-    void test_hierarchy_with(Ray<R>& ray, std::size_t pack, int i) {
-        if constexpr (AnyHit) {
-            bool blocked = false;
-            Search<AnyHit, S, R, 1>(scene_, {&ray, 1}, Apex::none, {&blocked, 1}).test_hierarchy();
-            if (blocked) {
-                set_lane(rays_[pack].t_max, i, -infinity<R>());
-                set_lane(results_[pack], i, true);
+    /// The rays of as many packs as may take turns, which are then left out of `packs`.
+    void test_in_turns(unsigned& packs) {
+        constexpr std::size_t lanes_each = lane_count<L>, most = std::min<std::size_t>(64 / lanes_each, N);
+        constexpr std::size_t rays_at_most = most * lanes_each;
+        const Accelerator& accelerator = scene_.accelerator;
+        const Bounds<R> root{lanes<R>(accelerator.box.min), lanes<R>(accelerator.box.max)};
+        RaysInTurns<R, static_cast<int>(rays_at_most)> search;
+        std::array<Ray<R>, rays_at_most> rays;
+        std::array<RealResult, rays_at_most> results;
+        R nearest[rays_at_most] = {};
+        std::array<std::size_t, most> from{};
+        std::size_t count = 0;
+        for (; packs != 0 && count < most; packs &= packs - 1, ++count) {
+            const auto pack = from[count] = static_cast<std::size_t>(__builtin_ctz(packs));
+            search.add(count * lanes_each, SlabRay<L>(rays_[pack], root), rays_[pack].t_min,
+                       is_active(rays_[pack]));
+            for (std::size_t i = 0; i < lanes_each; ++i) {
+                const std::size_t ray = count * lanes_each + i;
+                rays[ray] = lane(rays_[pack], static_cast<int>(i));
+                if constexpr (AnyHit) {
+                    results[ray] = false;
+                } else {
+                    results[ray] = lane(results_[pack], static_cast<int>(i));
+                }
+                nearest[ray] = rays[ray].t_max;
             }
-        } else {
-            Hit<R> hit = lane(results_[pack], i);
-            Search<AnyHit, S, R, 1>(scene_, {&ray, 1}, Apex::none, {&hit, 1}).test_hierarchy();
-            set_lane(rays_[pack].t_max, i, ray.t_max);
-            set_lane(results_[pack], i, hit);
+        }
+        search.run(accelerator.nodes.data(), nearest,
+                   [&](std::size_t ray, std::uint32_t first, std::uint32_t in_leaf) {
+                       Search<AnyHit, S, R, 1> one(scene_, {&rays[ray], 1}, Apex::none, {&results[ray], 1});
+                       const bool done = one.test_leaf(first, in_leaf, 1);
+                       nearest[ray] = rays[ray].t_max;
+                       return done;
+                   });
+        for (std::size_t i = 0; i < count * lanes_each; ++i) {
+            const auto pack = from[i / lanes_each];
+            const auto k = static_cast<int>(i % lanes_each);
+            set_lane(rays_[pack].t_max, k, rays[i].t_max);
+            if constexpr (AnyHit) {
+                if (!results[i]) {
+                    continue;
+                }
+            }
+            set_lane(results_[pack], k, results[i]);
         }
     }
 
@@ -360,6 +393,9 @@ private:
             }
         }
     }
+
+    template <bool, class, class, int>
+    friend class Search;
 
     const S& scene_;
     std::span<Ray<L>> rays_;
