@@ -46,7 +46,7 @@ public:
         const auto body = file_.items.begin() + static_cast<std::ptrdiff_t>(file_.heading);
         std::for_each(file_.items.begin(), body,
                       [&](const Item& item) { write_comment(std::get<Comment>(item).text); });
-        write_settings();
+        write_settings(name);
         std::for_each(body, file_.items.end(),
                       [&](const Item& item) { std::visit([&](const auto& i) { write_item(i); }, item); });
         close_group();
@@ -78,12 +78,23 @@ private:
         out_ += '\n';
     }
 
-    void write_settings() {
+    /// The file's name, as far as it can be one everywhere, with another ending.
+    static std::string picture_name(std::string_view name) {
+        std::string stem(name.substr(0, name.rfind('.')));
+        for (char& c : stem) {
+            const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+            c = plain || c == '-' || c == '.' ? c : '_';
+        }
+        return stem + ".png";
+    }
+
+    void write_settings(std::string_view name) {
         line("world {{ ambient = {}, background = {} }}", grey(0.1), file_.background.value_or(Rgb{}));
         write_camera();
         write_lights();
         const View& view = file_.view;
-        line("render {{ size = ({}, {}), method = ray {{ }} }}", view.width, view.height);
+        line("render {{ file = \"{}\", size = ({}, {}), method = ray {{ }} }}", picture_name(name),
+             view.width, view.height);
     }
 
     void write_camera() {
