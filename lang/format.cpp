@@ -1,7 +1,7 @@
 #include "lang/format.h"
 
-#include "lang/format_structure.h"
 #include "lang/brackets.h"
+#include "lang/format_structure.h"
 #include "lang/utf8.h"
 
 #include <algorithm>
@@ -16,8 +16,8 @@ constexpr std::size_t step = 2; ///< of indentation
 
 struct Comment {
     std::string text;
-    bool is_line;    ///< `//`
-    int newlines;    ///< between it and what stands before it
+    bool is_line; ///< `//`
+    int newlines; ///< between it and what stands before it
     bool after_separator = false;
 };
 
@@ -267,8 +267,8 @@ bool Formatter::add_flat_between(std::uint32_t first, std::uint32_t next, bool i
 void Formatter::put(std::string_view added) {
     out_ += added;
     const std::size_t line_end = added.rfind('\n');
-    column_ = line_end == std::string_view::npos ? column_ + width_of(added)
-                                                 : width_of(added.substr(line_end + 1));
+    column_ =
+        line_end == std::string_view::npos ? column_ + width_of(added) : width_of(added.substr(line_end + 1));
 }
 
 void Formatter::new_line(std::size_t indent) {
@@ -280,9 +280,10 @@ void Formatter::new_line(std::size_t indent) {
     line_indent_ = indent;
 }
 
-/// All comments before the tokens from `first`, which are separators, up to `next`; and the line ends after the
-/// last of them.
-std::vector<Comment> Formatter::comments_between(std::uint32_t first, std::uint32_t next, int& newlines) const {
+/// All comments before the tokens from `first`, which are separators, up to `next`; and the line ends after
+/// the last of them.
+std::vector<Comment> Formatter::comments_between(std::uint32_t first, std::uint32_t next,
+                                                 int& newlines) const {
     std::vector<Comment> found;
     for (std::uint32_t i = first; i <= next; ++i) {
         Gap before = gap(i);
@@ -438,8 +439,8 @@ void Formatter::before(std::uint32_t i, std::size_t indent, bool breaks) {
     }
 }
 
-/// `( )` or `[ ]`. One that the author wrote on one line and that is too wide gets a line for each element. Lines of
-/// one that begins on the bracket's line are aligned with that beginning.
+/// `( )` or `[ ]`. One that the author wrote on one line and that is too wide gets a line for each element.
+/// Lines of one that begins on the bracket's line are aligned with that beginning.
 void Formatter::group(std::uint32_t open) {
     const std::uint32_t close = structure_.partner[open];
     const Flat whole = flat({open, close});

@@ -19,9 +19,9 @@ struct TokenRange {
 struct FormatStructure {
     std::vector<TokenRange> items;                                     ///< of the file
     std::unordered_map<std::uint32_t, std::vector<TokenRange>> bodies; ///< items by the opening brace
-    std::unordered_set<std::uint32_t> postfix;  ///< `(` and `[` that belong to the operand before them
-    std::unordered_set<std::uint32_t> infix;    ///< `-` between two operands
-    std::vector<std::uint32_t> partner;         ///< of a bracket
+    std::unordered_set<std::uint32_t> postfix; ///< `(` and `[` that belong to the operand before them
+    std::unordered_set<std::uint32_t> infix;   ///< `-` between two operands
+    std::vector<std::uint32_t> partner;        ///< of a bracket
 };
 
 FormatStructure structure_of(const std::vector<Token>& tokens, const ast::File& file);

@@ -67,8 +67,8 @@ Json to_json(const lang::SourceSet& sources, const lang::Diagnostic& diagnostic)
     return json;
 }
 
-/// Checks a scene and writes the fixes of its mistakes into the file, until what is left has none: a mistake can
-/// hide others. Each writing leaves the file whole. `fixed` is the number of fixes.
+/// Checks a scene and writes the fixes of its mistakes into the file, until what is left has none: a mistake
+/// can hide others. Each writing leaves the file whole. `fixed` is the number of fixes.
 Loaded mend(const SceneOptions& scene, std::size_t& fixed) {
     constexpr int most_rounds = 20; // a fix that leads to another one can go on for ever
     constexpr lang::FileId scene_file = 0;

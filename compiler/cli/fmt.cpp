@@ -82,9 +82,12 @@ void add_fmt(CLI::App& app, Run& selected) {
     auto options = std::make_shared<FmtOptions>();
     CLI::App* command =
         app.add_subcommand("fmt", "lay out scenes in the one way of the language, in place; comments stay");
-    command->add_option("FILE", options->files, "scenes, .scn files; `-` is standard input, whose layout is printed")
+    command
+        ->add_option("FILE", options->files,
+                     "scenes, .scn files; `-` is standard input, whose layout is printed")
         ->required();
-    command->add_flag("--check", options->check, "only name the files that are laid out otherwise, with exit code 1");
+    command->add_flag("--check", options->check,
+                      "only name the files that are laid out otherwise, with exit code 1");
     command->callback([&selected, options] { selected = [options] { return format_files(*options); }; });
 }
 

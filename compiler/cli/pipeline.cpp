@@ -2,6 +2,7 @@
 
 #include "compiler/lower.h"
 #include "compiler/passes/passes.h"
+#include "compiler/scene_checks.h"
 #include "compiler/schema.h"
 #include "lang/parser.h"
 #include "runtime/host/file.h"
@@ -124,6 +125,7 @@ Loaded load(const SceneOptions& options, Stage last) {
             lower_the_rest(loaded, lowering);
         } else {
             loaded.scene = compiler::lower(loaded.module, lowering, loaded.diagnostics);
+            compiler::check_scene(loaded.module, loaded.scene, loaded.diagnostics);
         }
     });
     if (!loaded.diagnostics.has_errors()) {

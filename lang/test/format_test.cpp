@@ -38,7 +38,8 @@ std::vector<std::string> comments_of(std::string_view text) {
                 break;
             }
             const bool is_line = text[at + 1] == '/';
-            const std::size_t end = is_line ? std::min(text.find('\n', at), text.size()) : text.find("*/", at + 2) + 2;
+            const std::size_t end =
+                is_line ? std::min(text.find('\n', at), text.size()) : text.find("*/", at + 2) + 2;
             std::string comment;
             for (const char c : text.substr(at, end - at)) {
                 if (c != '\r' && c != ' ') {
@@ -70,7 +71,8 @@ TEST(Format, SpacesTokens) {
               "fn f(x: number = 1, g: fn(number) -> [vec3]) -> color = if (x > 0) (1, 2) else -x\n");
     EXPECT_EQ(formatted("let a = b - -c, let d = not-e"), "let a = b - -c\nlet d = not -e\n");
     EXPECT_EQ(formatted("sphere{}"), "sphere { }\n");
-    EXPECT_EQ(formatted("param n:number=1 in 0 .. 5 \"how many\""), "param n: number = 1 in 0..5 \"how many\"\n");
+    EXPECT_EQ(formatted("param n:number=1 in 0 .. 5 \"how many\""),
+              "param n: number = 1 in 0..5 \"how many\"\n");
     EXPECT_EQ(formatted("let a = map([1],fn (x:number)=x)"), "let a = map([1], fn(x: number) = x)\n");
     EXPECT_EQ(formatted("language  1;a"), "language 1\na\n");
     EXPECT_EQ(formatted("let a = if (b) - 1 else (fn (x: number) = x) (2)"),
@@ -80,7 +82,8 @@ TEST(Format, SpacesTokens) {
 TEST(Format, KeepsShortBodiesOnTheirLine) {
     EXPECT_EQ(formatted("a{b=1;c=2}"), "a { b = 1, c = 2 }\n");
     EXPECT_EQ(formatted("a{b=1\nc=2}"), "a {\n  b = 1\n  c = 2\n}\n");
-    EXPECT_EQ(formatted("a { b = c { d = 1,\n e = 2 }, f = 3 }"), "a {\n  b = c {\n    d = 1\n    e = 2\n  }\n  f = 3\n}\n");
+    EXPECT_EQ(formatted("a { b = c { d = 1,\n e = 2 }, f = 3 }"),
+              "a {\n  b = c {\n    d = 1\n    e = 2\n  }\n  f = 3\n}\n");
     EXPECT_EQ(formatted("fn f(x: number) { let y = x, y }"), "fn f(x: number) { let y = x, y }\n");
     EXPECT_EQ(formatted("fn f(x: number) { let y = x\ny }"), "fn f(x: number) {\n  let y = x\n  y\n}\n");
 }
@@ -91,7 +94,8 @@ TEST(Format, GivesEachItemOfALongBodyALine) {
     EXPECT_EQ(formatted("g { " + first + ", " + second + " }"), "g { " + first + ", " + second + " }\n");
     const std::string wide = second + "bbbbb";
     EXPECT_EQ(formatted("ggg { " + first + ", " + wide + " }"), "ggg { " + first + ", " + wide + " }\n");
-    EXPECT_EQ(formatted("ggggg { " + first + "_, " + wide + " }"), "ggggg {\n  " + first + "_\n  " + wide + "\n}\n");
+    EXPECT_EQ(formatted("ggggg { " + first + "_, " + wide + " }"),
+              "ggggg {\n  " + first + "_\n  " + wide + "\n}\n");
 }
 
 TEST(Format, BreaksLongItems) {
@@ -107,7 +111,8 @@ TEST(Format, BreaksLongItems) {
 }
 
 TEST(Format, KeepsTheLinesOfAnItem) {
-    EXPECT_EQ(formatted("let m = matrix([1, 0,\n       0, 1])"), "let m = matrix([1, 0,\n                0, 1])\n");
+    EXPECT_EQ(formatted("let m = matrix([1, 0,\n       0, 1])"),
+              "let m = matrix([1, 0,\n                0, 1])\n");
     EXPECT_EQ(formatted("let m = [\n1,\n\n\n2\n]"), "let m = [\n  1,\n  2\n]\n");
     EXPECT_EQ(formatted("fn f(x: number) =\n      x +\n  1"), "fn f(x: number) =\n  x +\n  1\n");
     EXPECT_EQ(formatted("if (a) {\nb\n}\nelse {\nc\n}"), "if (a) {\n  b\n} else {\n  c\n}\n");
@@ -125,9 +130,11 @@ TEST(Format, KeepsCommentsInTheirPlaces) {
               "// head\n\n//  second\na  // of a\n// before b\nb\n\n// end\n");
     EXPECT_EQ(formatted("g { // opens\n a = 1, // one\n b = 2 // two\n // last\n}"),
               "g {  // opens\n  a = 1  // one\n  b = 2  // two\n  // last\n}\n");
-    EXPECT_EQ(formatted("g { /* a */ a = 1 /* b */, /* c */ b = 2 }"), "g { /* a */ a = 1 /* b */, /* c */ b = 2 }\n");
+    EXPECT_EQ(formatted("g { /* a */ a = 1 /* b */, /* c */ b = 2 }"),
+              "g { /* a */ a = 1 /* b */, /* c */ b = 2 }\n");
     EXPECT_EQ(formatted("let a = // why\n  3"), "let a =  // why\n  3\n");
-    EXPECT_EQ(formatted("let a = [ // first\n 1, // one\n // two\n 2]"), "let a = [  // first\n  1,  // one\n  // two\n  2]\n");
+    EXPECT_EQ(formatted("let a = [ // first\n 1, // one\n // two\n 2]"),
+              "let a = [  // first\n  1,  // one\n  // two\n  2]\n");
     EXPECT_EQ(formatted("/* a\n   b */ c"), "/* a\n   b */ c\n");
     EXPECT_EQ(formatted("// only"), "// only\n");
     EXPECT_EQ(formatted("g { // only\n}"), "g {  // only\n}\n");
@@ -137,8 +144,8 @@ TEST(Format, KeepsCommentsInTheirPlaces) {
 TEST(Format, IsStableOnEverySceneOfTheProject) {
     int scenes = 0;
     for (const char* folder : {"examples", "lang", "compiler", "validation"}) {
-        for (const auto& entry : std::filesystem::recursive_directory_iterator(
-                 std::filesystem::path(SCC_SOURCE_DIR) / folder)) {
+        for (const auto& entry :
+             std::filesystem::recursive_directory_iterator(std::filesystem::path(SCC_SOURCE_DIR) / folder)) {
             if (entry.path().extension() != ".scn") {
                 continue;
             }

@@ -1,13 +1,14 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <random>
 #include <string>
 
 namespace scc::lang::test {
 
-/// Random texts that follow the grammar, with comments, blanks and line ends wherever they may stand. They need not
-/// mean anything.
+/// Random texts that follow the grammar, with comments, blanks and line ends wherever they may stand. They
+/// need not mean anything.
 class ProgramGenerator {
 public:
     explicit ProgramGenerator(std::uint32_t seed) : random_(seed) {}
@@ -41,7 +42,8 @@ private:
     }
     void maybe_comment() {
         while (chance(15)) {
-            out_ += one_of({"// note\n", "  // \xC3\xA9 note  \n", "/* block */\n", "/* two\n   lines */\n", "\n\n\n", "\n"});
+            out_ += one_of({"// note\n", "  // \xC3\xA9 note  \n", "/* block */\n", "/* two\n   lines */\n",
+                            "\n\n\n", "\n"});
         }
     }
     void line_end() {
@@ -72,7 +74,10 @@ private:
             out_ += one_of({"deg", "rad", "mm", "inch"});
         }
     }
-    void string() { out_ += one_of({"\"\"", "\"text\"", "\"a \\\"b\\\" // c\"", "\"{ /* \\\\ */ }\"", "\"\xE2\x82\xAC\""}); }
+    void string() {
+        out_ +=
+            one_of({"\"\"", "\"text\"", "\"a \\\"b\\\" // c\"", "\"{ /* \\\\ */ }\"", "\"\xE2\x82\xAC\""});
+    }
 
     void type(int depth) {
         const int kind = depth > 0 ? below(6) : 0;

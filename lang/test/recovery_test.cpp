@@ -1,6 +1,12 @@
-#include "lang/test/toy_schema.h"
+#include "lang/format.h"
+#include "lang/test/program_generator.h"
+#include "lang/test/trace_recorder.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iterator>
+#include <random>
 
 /// One mistake is one message, however much of the scene depends on it; and mistakes do not hide each other.
 namespace scc::lang {
@@ -115,6 +121,69 @@ TEST(RecoveryOfThings, KeepsTheOnesWithoutMistakes) {
         kept += fmt::format("{} {}, ", thing->constructor->name, thing->children.size());
     }
     EXPECT_EQ(kept, "ball 0, pile 1, ball 0, ");
+}
+
+constexpr const char* whole = R"(world { unit = "cm", background = #102030 }
+param n: number = 3 in 1..5 "how many"
+let red = paint { tone = fn(s: surface) = rgb(s.p.x, k, 0) * s.n.y, gloss = 3 }
+let k = if (n > 2) 1 else 2
+fn leg(x: number, r: number = 0.5) -> shape = ball { center = (x, 0, 0), radius = r, material = red }
+fn square(x: number) {
+  let y = x * x
+  y
+}
+fn down(x: number) -> number = if (x > 0) down(x - 1) + 1 else 0
+let list = [for (i in 0..n) square(i)]
+let big = map(filter(list, fn(x: number) = x > 1), fn(x: number) = x + 1)
+pile {
+  transform = translate(1, 2, 3) then rotate_y(30deg) then scale(2)
+  for (i in 0..n) {
+    let q = i + 1
+    leg(q, r = 0.1 * q)
+  }
+  if (n > 1 and not (k == 2)) { ball { } } else if (n == 0) { leg(1) } else { ball { radius = 2 } }
+}
+chain { points = [(0, 0, 0), (1, list[1], 0)] }
+assert(sum(list) > 1, "sum")
+print(len(big) + down(5))
+lamp { position = normalize((1, 2, 3)) * 2 }
+eye { fov_y = 40deg }
+)";
+
+/// Whatever is wrong, the rest is checked, evaluated and traced; and what parses has a layout.
+TEST(RecoveryOfDamage, LeavesNothingToCrash) {
+    const char* const pieces[] = {"let ", "fn ",   "param ", "if (", "for (i in ", "else ", "then ",  "(",
+                                  ")",    "[",     "]",      "{",    "}",          ",",     "\n",     " = ",
+                                  ": ",   "..",    "-",      "list", "leg",        "red",   "1e9",    "0",
+                                  "true", "\"x\"", "vec3",   " -> ", "ball { ",    "sum(",  "import "};
+    EvaluationLimits limits;
+    limits.steps = 20000;
+    limits.list_length = 2000;
+    limits.string_length = 5000;
+    ASSERT_EQ(Scene(whole).messages(), "");
+    for (std::uint32_t seed = 1; seed <= 1500; ++seed) {
+        std::mt19937 random(seed);
+        std::string text = seed % 4 == 0 ? test::ProgramGenerator(seed).file() : whole;
+        text.resize(std::min<std::size_t>(text.size(), 4000));
+        for (std::size_t edits = random() % 6 + 1; edits > 0 && !text.empty(); --edits) {
+            const std::size_t place = random() % text.size();
+            if (random() % 2 == 0) {
+                text.erase(place, random() % 12 + 1);
+            } else {
+                text.insert(place, pieces[random() % std::size(pieces)]);
+            }
+        }
+        Scene scene(text, {{"n", "4"}}, limits);
+        test::trace_all(scene);
+        ASSERT_FALSE(scene.messages().empty() && scene.diagnostics.has_errors()) << text;
+        test::Front front(text);
+        const std::vector<Token> tokens = front.lex();
+        const ast::File tree = parse(front.sources, front.file, tokens, front.diagnostics);
+        if (!front.diagnostics.has_errors()) {
+            test::Front again(format(front.sources, tokens, tree));
+            ASSERT_EQ(dump_ast(*again.parse()), dump_ast(tree)) << text;
+        }
+    }
 }
 
 } // namespace
