@@ -1,5 +1,7 @@
 #include "compiler/cli/commands.h"
+#include "lang/fixes.h"
 #include "lang/type.h"
+#include "runtime/host/file.h"
 #include "runtime/host/options.h"
 
 #include <CLI/CLI.hpp>
@@ -19,6 +21,7 @@ struct CheckOptions {
     std::vector<std::string> files;
     bool strict = false;
     bool json = false;
+    bool fix = false;
 };
 
 const char* name_of(lang::Severity severity) {
@@ -64,13 +67,35 @@ Json to_json(const lang::SourceSet& sources, const lang::Diagnostic& diagnostic)
     return json;
 }
 
+/// Checks a scene and writes the fixes of its mistakes into the file, until what is left has none: a mistake
+/// can hide others. Each writing leaves the file whole. `fixed` is the number of fixes.
+Loaded mend(const SceneOptions& scene, std::size_t& fixed) {
+    constexpr int most_rounds = 20; // a fix that leads to another one can go on for ever
+    constexpr lang::FileId scene_file = 0;
+    for (int round = 0;; ++round) {
+        Loaded loaded = load(scene, Stage::scene);
+        const std::vector<lang::Fix> fixes = lang::fixes_for(scene_file, loaded.diagnostics.sorted());
+        if (fixes.empty() || round == most_rounds) {
+            return loaded;
+        }
+        host::replace_file(scene.file, lang::with_fixes(loaded.sources.file(scene_file).text(), fixes));
+        fixed += fixes.size();
+    }
+}
+
 int check(const CheckOptions& options) {
     bool fine = true;
+    std::size_t fixed = 0;
     Json all = Json::array();
     for (const std::string& file : options.files) {
         SceneOptions scene = options.scene;
         scene.file = file;
-        Loaded loaded = load(scene, Stage::scene);
+        const std::size_t fixed_before = fixed;
+        Loaded loaded = options.fix ? mend(scene, fixed) : load(scene, Stage::scene);
+        if (fixed > fixed_before) {
+            fmt::print(stderr, "{}: {} fix{} made\n", file, fixed - fixed_before,
+                       fixed - fixed_before == 1 ? "" : "es");
+        }
         if (options.strict) {
             loaded.diagnostics.promote_warnings();
         }
@@ -84,9 +109,11 @@ int check(const CheckOptions& options) {
         }
     }
     if (options.json) {
-        write_result("-", Json{{"schema", 1}, {"diagnostics", all}}.dump(2, ' ', false,
-                                                                         Json::error_handler_t::replace) +
-                              "\n");
+        Json json{{"schema", 1}, {"diagnostics", all}};
+        if (options.fix) {
+            json["fixed"] = fixed;
+        }
+        write_result("-", json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     }
     return fine ? host::exit_fine : host::exit_scene;
 }
@@ -138,6 +165,8 @@ void add_check(CLI::App& app, Run& selected) {
     command->add_option("FILE", options->files, "scenes, .scn files")->required();
     add_scene_values(*command, options->scene);
     command->add_flag("--strict", options->strict, "warnings are errors");
+    command->add_flag("--fix", options->fix,
+                      "write the replacements that are shown into the files, then say what is left");
     command->add_flag("--json", options->json, "diagnostics as JSON on standard output");
     command->callback([&selected, options] { selected = [options] { return check(*options); }; });
 }

@@ -29,6 +29,7 @@ struct Interrupted {};
 
 /// Registers a command; `selected` becomes what to run if the command line names it.
 void add_check(CLI::App& app, Run& selected);
+void add_fmt(CLI::App& app, Run& selected);
 void add_params(CLI::App& app, Run& selected);
 void add_render(CLI::App& app, Run& selected);
 void add_build(CLI::App& app, Run& selected);

@@ -40,6 +40,7 @@ int run(const cli::Run& command) {
 constexpr const char* examples = R"(
 Examples:
   scc check scene.scn                            say what is wrong with a scene
+  scc fmt scene.scn                              lay it out in place
   scc render scene.scn -o scene.png              draw it
   scc build scene.scn -o scene && ./scene -o scene.png
                                                  make a program that draws it
@@ -60,7 +61,7 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", SCC_VERSION);
     app.footer(examples);
     cli::Run selected;
-    for (auto* add : {cli::add_check, cli::add_params, cli::add_render, cli::add_build, cli::add_export,
+    for (auto* add : {cli::add_check, cli::add_fmt, cli::add_params, cli::add_render, cli::add_build, cli::add_export,
                       cli::add_import, cli::add_validate, cli::add_compare, cli::add_doctor}) {
         add(app, selected);
     }

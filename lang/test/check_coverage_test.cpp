@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <string>
 #include <vector>
@@ -11,9 +13,45 @@
 namespace scc::lang {
 namespace {
 
-/// The shortest scene for every diagnostic that the checker and the evaluator have.
+std::string repeat(std::string_view text, std::size_t times) {
+    std::string out;
+    for (std::size_t i = 0; i < times; ++i) {
+        out += text;
+    }
+    return out;
+}
+
+/// The shortest scene for every diagnostic of the front end.
 const std::map<Diag, std::string>& scenes() {
     static const std::map<Diag, std::string> rows{
+        {Diag::unexpected_character, "print(@)"},
+        {Diag::unterminated_string, "print(\"a)"},
+        {Diag::unterminated_comment, "/* a"},
+        {Diag::bad_escape, "print(\"\\q\")"},
+        {Diag::bad_number, "print(.5)"},
+        {Diag::unknown_unit, "print(3degrees)"},
+        {Diag::bad_hex_color, "print(#fc0)"},
+        {Diag::number_out_of_range, "print(1e999)"},
+        {Diag::bad_utf8, "// \xff"},
+        {Diag::unexpected_token, "print(1,)"},
+        {Diag::missing_separator, "ball { } ball { }"},
+        {Diag::unit_apart, "print(40 deg)"},
+        {Diag::reserved_word, "let in = 3"},
+        {Diag::field_assignment, "ball { radius: 3 }"},
+        {Diag::field_outside, "a = 3"},
+        {Diag::brace_on_new_line, "ball\n{ }"},
+        {Diag::chained_operator, "print(1 < 2 < 3)"},
+        {Diag::vector_size, "print((1, 2, 3, 4))"},
+        {Diag::missing_result, "fn f() { let a = 1 }"},
+        {Diag::after_result, "fn f() {\n  1\n  2\n}"},
+        {Diag::else_without_if, "else { }"},
+        {Diag::language_not_first, "print(1)\nlanguage 1"},
+        {Diag::unknown_language, "language 2"},
+        {Diag::unclosed_bracket, "ball {"},
+        {Diag::unopened_bracket, "ball { } }"},
+        {Diag::wrong_bracket, "print((1, 2])"},
+        {Diag::nesting_too_deep, "print(" + repeat("(", 200) + "1" + repeat(")", 200) + ")"},
+        {Diag::chain_too_long, "print(1" + repeat(" + 1", 600) + ")"},
         {Diag::duplicate_name, "let a = 1\nlet a = 2"},
         {Diag::shadowed_name, "let sin = 1\nprint(sin)"},
         {Diag::unused_let, "let a = 1"},
@@ -82,11 +120,13 @@ const std::map<Diag, std::string>& scenes() {
     return rows;
 }
 
-std::vector<Diag> reported_by(Diag kind, std::string text) {
+test::Scene scene_of(Diag kind) {
+    std::string text = scenes().at(kind);
     if (kind == Diag::too_deep) {
         for (int i = 1; i < 40; ++i) {
             text += fmt::format("let a{} = [a{}]\n", i, i - 1);
         }
+        text += "print(a39)";
     }
     const std::vector<Definition> definitions =
         kind == Diag::unknown_param ? std::vector<Definition>{{"n", "1"}} : std::vector<Definition>{};
@@ -96,27 +136,40 @@ std::vector<Diag> reported_by(Diag kind, std::string text) {
     limits.string_length = 100;
     test::Scene scene(text, definitions, limits);
     test::trace_all(scene);
-    std::vector<Diag> kinds;
-    for (const Diagnostic& diagnostic : scene.diagnostics.sorted()) {
-        kinds.push_back(diagnostic.kind);
-    }
-    return kinds;
+    return scene;
 }
 
-TEST(CheckCoverage, EveryDiagnosticOfCheckerAndEvaluatorHasAScene) {
-    for (int kind = static_cast<int>(Diag::duplicate_name); kind <= static_cast<int>(Diag::shape_per_point);
-         ++kind) {
+TEST(CheckCoverage, EveryDiagnosticOfTheFrontEndHasAScene) {
+    for (int kind = static_cast<int>(Diag::unexpected_character);
+         kind <= static_cast<int>(Diag::shape_per_point); ++kind) {
         EXPECT_TRUE(scenes().contains(static_cast<Diag>(kind))) << row(static_cast<Diag>(kind)).kind;
     }
 }
 
 TEST(CheckCoverage, EverySceneGivesItsDiagnosticAndNoOther) {
     for (const auto& [kind, text] : scenes()) {
-        for (Diag reported : reported_by(kind, text)) {
-            EXPECT_EQ(row(reported).kind, row(kind).kind) << text;
+        const std::vector<Diagnostic> found = scene_of(kind).diagnostics.sorted();
+        EXPECT_FALSE(found.empty()) << row(kind).kind;
+        for (const Diagnostic& reported : found) {
+            EXPECT_EQ(row(reported.kind).kind, row(kind).kind) << text;
         }
-        EXPECT_FALSE(reported_by(kind, text).empty()) << row(kind).kind;
     }
+}
+
+/// The whole text of each, as an author sees it. SCC_UPDATE_GOLDEN=1 rewrites the file, to be reviewed like
+/// code.
+TEST(CheckCoverage, EveryDiagnosticReadsAsItShould) {
+    std::string text;
+    for (const auto& [kind, scene] : scenes()) {
+        text += fmt::format("==== {}\n{}", row(kind).name, scene_of(kind).messages());
+    }
+    const std::string file = SCC_SOURCE_DIR "/lang/test/golden/messages.txt";
+    if (std::getenv("SCC_UPDATE_GOLDEN") != nullptr) {
+        std::ofstream(file, std::ios::binary) << text;
+        return;
+    }
+    std::ifstream in(file, std::ios::binary);
+    EXPECT_EQ(text, std::string(std::istreambuf_iterator<char>(in), {}));
 }
 
 } // namespace

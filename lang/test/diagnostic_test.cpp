@@ -1,4 +1,5 @@
 #include "lang/diagnostic.h"
+#include "lang/fixes.h"
 
 #include <gtest/gtest.h>
 
@@ -155,6 +156,25 @@ TEST(Diagnostics, CountErrorsAndPromoteWarnings) {
     diagnostics.promote_warnings();
     EXPECT_EQ(diagnostics.error_count(), 2u);
     EXPECT_EQ(diagnostics.warning_count(), 0u);
+}
+
+TEST(Fixes, AreMadeTogetherUnlessTheyTouch) {
+    const std::string text = "abcdef";
+    Diagnostics diagnostics;
+    const auto fix = [&](FileId file, std::uint32_t begin, std::uint32_t end, const char* replacement) {
+        diagnostics.report(Diag::bad_number, {file, begin, end}, "x")
+            .suggest({file, begin, end}, replacement);
+    };
+    fix(0, 4, 5, "E");
+    fix(0, 1, 3, "BC");
+    fix(0, 2, 4, "overlaps");
+    fix(0, 0, 0, "<");
+    fix(0, 0, 0, "inserted at the same place");
+    fix(0, 5, 5, "-");
+    fix(1, 5, 6, "in another file");
+    diagnostics.report(Diag::bad_number, {0, 5, 6}, "without a fix");
+    EXPECT_EQ(with_fixes(text, fixes_for(0, diagnostics.sorted())), "<aBCdE-f");
+    EXPECT_EQ(with_fixes(text, {}), text);
 }
 
 TEST(DiagnosticRows, KeepTheHouseStyle) {

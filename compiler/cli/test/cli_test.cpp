@@ -18,7 +18,7 @@ TEST_F(CommandLine, HelpNamesEveryCommand) {
     const auto result = scc({"--help"});
     EXPECT_TRUE(result.ok());
     for (const char* command :
-         {"check", "params", "render", "build", "export", "import", "validate", "compare", "doctor"}) {
+         {"check", "fmt", "params", "render", "build", "export", "import", "validate", "compare", "doctor"}) {
         EXPECT_NE(result.out.find(command), std::string::npos) << command;
     }
 }
@@ -128,6 +128,18 @@ TEST_F(CommandLine, CheckReportsAllMistakesOfAllFilesInOneRun) {
     }
 }
 
+// Exactly these, each at its place, and nothing that follows from them.
+TEST_F(CommandLine, CheckTellsTwentyMistakesApart) {
+    const std::string mistakes = SCC_SOURCE_DIR "/compiler/cli/test/mistakes/";
+    std::filesystem::copy(mistakes + "twenty.scn", path("twenty.scn"));
+    std::filesystem::copy(mistakes + "twenty.txt", path("twenty.txt"));
+    const auto result = scc({"check", "twenty.scn"});
+    EXPECT_EQ(result.code, 1);
+    EXPECT_EQ(result.err, read("twenty.txt"));
+    const auto json = nlohmann::json::parse(scc({"check", "--json", "twenty.scn"}).out);
+    EXPECT_EQ(json["diagnostics"].size(), 20U);
+}
+
 TEST_F(CommandLine, CheckWritesJson) {
     write("a.scn", std::string("sphere { radios = 1 }\n") + small_scene);
     const auto result = scc({"check", "--json", "a.scn"});
@@ -143,6 +155,55 @@ TEST_F(CommandLine, StrictTurnsWarningsIntoErrors) {
     write("a.scn", std::string("let unused = 3\n") + small_scene);
     EXPECT_EQ(scc({"check", "a.scn"}).code, 0);
     EXPECT_EQ(scc({"check", "--strict", "a.scn"}).code, 1);
+}
+
+TEST_F(CommandLine, FixesAreMadeInTheFile) {
+    const std::string mended =
+        "sphere { radius = 1, transform = rotate_x(30deg) then rotate_y(2deg) }\n" + std::string(small_scene);
+    write("a.scn",
+          "sphere { radios: 1, transform = rotate_x(30) then rotate_y(2 deg) }\n" + std::string(small_scene));
+    const auto result = scc({"check", "--fix", "a.scn"});
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_EQ(result.err, "a.scn: 4 fixes made\n");
+    EXPECT_EQ(read("a.scn"), mended);
+    EXPECT_EQ(scc({"check", "--fix", "a.scn"}).err, "");
+    EXPECT_EQ(read("a.scn"), mended);
+    EXPECT_EQ(files(), (Lines{"a.scn"}));
+}
+
+TEST_F(CommandLine, WhatHasNoFixStaysAndIsSaid) {
+    write("a.scn", std::string("sphere { radios = -1 }\nlet unused = sin(90)\n") + small_scene);
+    const auto result = scc({"check", "--fix", "--json", "a.scn"});
+    EXPECT_EQ(result.code, 1);
+    const auto json = nlohmann::json::parse(result.out);
+    EXPECT_EQ(json["fixed"], 2);
+    ASSERT_EQ(json["diagnostics"].size(), 2U);
+    EXPECT_EQ(json["diagnostics"][0]["name"], "value-out-of-range");
+    EXPECT_EQ(json["diagnostics"][1]["name"], "unused-let");
+    EXPECT_EQ(read("a.scn"), std::string("sphere { radius = -1 }\nlet unused = sin(90deg)\n") + small_scene);
+}
+
+TEST_F(CommandLine, LayoutIsMadeInPlaceAndChecked) {
+    const std::string laid_out = "sphere { radius = 1 }  // round\n";
+    write("a.scn", "sphere{radius=1} // round");
+    write("b.scn", laid_out);
+    write("c.scn", "sphere{");
+    const auto checked = scc({"fmt", "--check", "a.scn", "b.scn"});
+    EXPECT_EQ(checked.code, 1);
+    EXPECT_EQ(checked.out, "a.scn\n");
+    EXPECT_EQ(read("a.scn"), "sphere{radius=1} // round");
+    EXPECT_EQ(scc({"fmt", "a.scn", "b.scn"}).code, 0);
+    EXPECT_EQ(read("a.scn"), laid_out);
+    EXPECT_EQ(read("b.scn"), laid_out);
+    EXPECT_EQ(scc({"fmt", "--check", "a.scn", "b.scn"}).code, 0);
+    const auto wrong = scc({"fmt", "c.scn", "a.scn"});
+    EXPECT_EQ(wrong.code, 1);
+    EXPECT_NE(wrong.err.find("c.scn:1:7: error: this `{` is never closed"), std::string::npos) << wrong.err;
+    EXPECT_EQ(read("c.scn"), "sphere{");
+    EXPECT_EQ(scc({"fmt", "none.scn"}).code, 3);
+    const auto piped = start("/bin/sh", {"-c", "printf 'sphere{}' | " SCC_PROGRAM " fmt -"});
+    EXPECT_EQ(piped.out, "sphere { }\n");
+    EXPECT_EQ(files(), (Lines{"a.scn", "b.scn", "c.scn"}));
 }
 
 TEST_F(CommandLine, ParamsAreListedAndSet) {

@@ -1,0 +1,91 @@
+#include "compiler/cli/test/support.h"
+#include "lang/diagnostic.h"
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <map>
+
+/// The diagnostics that only a whole scene or an export shows, as an author sees them; those of the front end
+/// are in lang/test/check_coverage_test.cpp.
+namespace scc::cli::test {
+namespace {
+
+using lang::Diag;
+
+struct Case {
+    const char* scene;
+    std::vector<std::string> command = {"check", "s.scn"};
+};
+
+const std::string camera_and_light = "perspective_camera { }\npoint_light { position = (3, 4, 5) }\n";
+
+const std::map<Diag, Case>& cases() {
+    static const std::vector<std::string> export_blender{"export", "blender", "s.scn", "-o", "s.py"};
+    static const std::vector<std::string> export_with_drop{"export", "blender", "s.scn",
+                                                           "-o",     "s.py",    "--allow-drop"};
+    static const char* tiny = "sphere { radius = 1e-9 }\npoint_light { position = (0, 1e-8, 5e-8) }\n"
+                              "perspective_camera { eye = (0, 0, 5e-8), near = 1e-9, far = 1e-6 }\n";
+    static const std::map<Diag, Case> rows{
+        {Diag::impossible_shape, {"cylinder { from = (0, 1, 0), to = (0, 1, 0) }\n"}},
+        {Diag::singular_transform,
+         {"group {\n  name = \"table\"\n  transform = scale(2e-8, 1, 1)\n  group {\n    transform = "
+          "scale(2e-8, 1, 1)\n"
+          "    sphere { transform = rotate_z(45deg) }\n  }\n}\n"}},
+        {Diag::impossible_camera, {"sphere { }\nperspective_camera { eye = (0, 1, 0) }\n"}},
+        {Diag::impossible_light,
+         {"sphere { }\ndirectional_light { direction = (0, 1, 0), towards = (0, 1, 0) }\n"}},
+        {Diag::unknown_camera, {"let left = perspective_camera { }\nleft\nrender { camera = \"right\" }\n"}},
+        {Diag::missing_asset, {"mesh { file = \"none.obj\" }\n"}},
+        {Diag::asset_outside, {"mesh { file = \"/etc/passwd\" }\n"}},
+        {Diag::broken_mesh, {"mesh { file = \"broken.obj\" }\n"}},
+        {Diag::suspect_mesh, {"mesh { file = \"suspect.obj\" }\n"}},
+        {Diag::bright_reflectance, {"sphere { material = phong { diffuse = rgb(1, 1.2, 0.5) } }\n"}},
+        {Diag::depth_precision,
+         {"sphere { }\nperspective_camera {\n  eye = (0, 0, 50)\n  near = 1e-6\n}\nplane { }\n"}},
+        {Diag::far_from_origin, {"for (i in 0..3) {\n  sphere { center = (1e6, i, 0) }\n}\n"}},
+        {Diag::no_camera, {"sphere { }\n"}},
+        {Diag::no_light, {"sphere { }\n"}},
+        {Diag::raster_skipped, {"sphere { }\nrender { method = raster { } }\n"}},
+        {Diag::unsupported_setting, {"sphere { }\nrender { sampling = \"corner\" }\n"}},
+        {Diag::not_exportable, {tiny, export_blender}},
+        {Diag::dropped, {tiny, export_with_drop}},
+    };
+    return rows;
+}
+
+// It would take gigabytes: the limit is there because no machine has the memory.
+constexpr Diag too_large_for_a_test = Diag::too_many_objects;
+
+TEST(Messages, EveryDiagnosticOfTheWholeSceneHasACase) {
+    for (int i = 0; i < static_cast<int>(Diag::unexpected_character); ++i) {
+        const auto kind = static_cast<Diag>(i);
+        EXPECT_TRUE(cases().contains(kind) || kind == too_large_for_a_test) << lang::row(kind).kind;
+    }
+}
+
+TEST_F(CommandLine, EveryDiagnosticOfTheWholeSceneReadsAsItShould) {
+    write("broken.obj", "v 0 0 0\nv 1 0 0\nf 1 2 7\n");
+    write("suspect.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 1 2\n");
+    std::string text;
+    for (const auto& [kind, scene] : cases()) {
+        const std::string name(lang::row(kind).name);
+        const bool has_both = std::string_view(scene.scene).find("camera") != std::string_view::npos ||
+                              kind == Diag::no_camera || kind == Diag::no_light;
+        write("s.scn", scene.scene + (has_both ? "" : camera_and_light));
+        const std::string message = scc(scene.command).err;
+        EXPECT_NE(message.find("[" + name + "]\n"), std::string::npos) << name << ": " << message;
+        text += fmt::format("==== {}\n{}", name, message);
+    }
+    const std::string file = SCC_SOURCE_DIR "/compiler/cli/test/golden/messages.txt";
+    if (std::getenv("SCC_UPDATE_GOLDEN") != nullptr) {
+        host::replace_file(file, text);
+        return;
+    }
+    std::ifstream in(file, std::ios::binary);
+    EXPECT_EQ(text, std::string(std::istreambuf_iterator<char>(in), {})) << "SCC_UPDATE_GOLDEN=1 rewrites it";
+}
+
+} // namespace
+} // namespace scc::cli::test
