@@ -157,7 +157,6 @@ class Search {
 public:
     using R = typename S::Real;
     using Result = std::conditional_t<AnyHit, MaskOf<L>, Hit<L>>;
-    using RealResult = std::conditional_t<AnyHit, bool, Hit<R>>;
 
     Search(const S& scene, std::span<Ray<L>> rays, Apex apex, std::span<Result> results,
            Candidates candidates = all_candidates)
@@ -251,49 +250,53 @@ private:
     }
     /// The rays of as many packs as may take turns, which are then left out of `packs`.
     void test_in_turns(unsigned& packs) {
-        constexpr std::size_t lanes_each = lane_count<L>, most = std::min<std::size_t>(64 / lanes_each, N);
-        constexpr std::size_t rays_at_most = most * lanes_each;
+        constexpr int lanes_each = lane_count<L>, most = std::min(64 / lanes_each, N);
         const Accelerator& accelerator = scene_.accelerator;
         const Bounds<R> root{lanes<R>(accelerator.box.min), lanes<R>(accelerator.box.max)};
-        RaysInTurns<R, static_cast<int>(rays_at_most)> search;
-        std::array<Ray<R>, rays_at_most> rays;
-        std::array<RealResult, rays_at_most> results;
-        R nearest[rays_at_most] = {};
-        std::array<std::size_t, most> from{};
+        RaysInTurns<R, most * lanes_each> search;
+        std::array<Alone, most * lanes_each> alone;
+        R nearest[most * lanes_each] = {};
         std::size_t count = 0;
-        for (; packs != 0 && count < most; packs &= packs - 1, ++count) {
-            const auto pack = from[count] = static_cast<std::size_t>(__builtin_ctz(packs));
-            search.add(count * lanes_each, SlabRay<L>(rays_[pack], root), rays_[pack].t_min,
-                       is_active(rays_[pack]));
-            for (std::size_t i = 0; i < lanes_each; ++i) {
-                const std::size_t ray = count * lanes_each + i;
-                rays[ray] = lane(rays_[pack], static_cast<int>(i));
-                if constexpr (AnyHit) {
-                    results[ray] = false;
-                } else {
-                    results[ray] = lane(results_[pack], static_cast<int>(i));
+        for (; packs != 0 && count + lanes_each <= alone.size(); packs &= packs - 1) {
+            const auto pack = static_cast<std::size_t>(__builtin_ctz(packs));
+            const Ray<L>& ray = rays_[pack];
+            search.add(count, SlabRay<L>(ray, root), ray.t_min, is_active(ray));
+            for (int i = 0; i < lanes_each; ++i, ++count) {
+                alone[count] = {pack, i, lane(ray, i), {}};
+                nearest[count] = alone[count].ray.t_max;
+                if constexpr (!AnyHit) {
+                    alone[count].result = lane(results_[pack], i);
                 }
-                nearest[ray] = rays[ray].t_max;
             }
         }
         search.run(accelerator.nodes.data(), nearest,
-                   [&](std::size_t ray, std::uint32_t first, std::uint32_t in_leaf) {
-                       Search<AnyHit, S, R, 1> one(scene_, {&rays[ray], 1}, Apex::none, {&results[ray], 1});
-                       const bool done = one.test_leaf(first, in_leaf, 1);
-                       nearest[ray] = rays[ray].t_max;
+                   [&](std::size_t i, std::uint32_t first, std::uint32_t in_leaf) {
+                       Ray<R>& ray = alone[i].ray;
+                       const bool done =
+                           Search<AnyHit, S, R, 1>(scene_, {&ray, 1}, Apex::none, {&alone[i].result, 1})
+                               .test_leaf(first, in_leaf, 1);
+                       nearest[i] = ray.t_max;
                        return done;
                    });
-        for (std::size_t i = 0; i < count * lanes_each; ++i) {
-            const auto pack = from[i / lanes_each];
-            const auto k = static_cast<int>(i % lanes_each);
-            set_lane(rays_[pack].t_max, k, rays[i].t_max);
-            if constexpr (AnyHit) {
-                if (!results[i]) {
-                    continue;
-                }
-            }
-            set_lane(results_[pack], k, results[i]);
+        for (std::size_t i = 0; i < count; ++i) {
+            put_back(alone[i]);
         }
+    }
+    /// One lane's ray by itself.
+    struct Alone {
+        std::size_t pack = 0;
+        int lane = 0;
+        Ray<R> ray;
+        std::conditional_t<AnyHit, bool, Hit<R>> result{};
+    };
+    void put_back(const Alone& one) {
+        set_lane(rays_[one.pack].t_max, one.lane, one.ray.t_max);
+        if constexpr (AnyHit) {
+            if (!one.result) {
+                return; // it may have been true before
+            }
+        }
+        set_lane(results_[one.pack], one.lane, one.result);
     }
 
     template <std::uint32_t kind>
