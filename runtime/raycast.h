@@ -70,6 +70,29 @@ bool any_of_table(const Table& table, F&& f) {
     }
 }
 
+/// The same for the candidates in a table of bounded primitives, whose bits it takes.
+template <class Table, class F>
+bool any_candidate(const Table& table, Candidates& left, F&& f) {
+    const auto size = static_cast<std::uint32_t>(table.size());
+    if (size > 30) {
+        for (std::uint32_t i = 0; i < size; ++i) {
+            if (next_is_candidate(left) && f(table[i], i)) {
+                return true;
+            }
+        }
+        return false;
+    }
+    unsigned here = static_cast<unsigned>(left) & ((1U << size) - 1);
+    left >>= size;
+    for (; here != 0; here &= here - 1) {
+        const auto i = static_cast<std::uint32_t>(__builtin_ctz(here));
+        if (f(table[i], i)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 template <class S, std::uint32_t... kind>
 constexpr bool uses_mesh_among(std::integer_sequence<std::uint32_t, kind...>) {
     return ((uses_kind(S::traits, kind) && is_mesh<ShapeOfKind<typename S::Real, kind>>) || ...);
@@ -125,19 +148,13 @@ bool keep_blocked(Ray<L>& ray, MaskOf<L>& blocked, const ShapeHit<L>& found) {
 }
 
 /// The search of one pack through a scene without hierarchies: by value, so that what is known stays in
-/// registers. Where all primitives are candidates, no branches keep the compiler from sharing what their
-/// tests have in common.
+/// registers. Where all primitives are candidates, their tests are unrolled.
 template <bool AnyHit, bool All, class S, class L>
 auto search_tables(const S& scene, Ray<L> ray, [[maybe_unused]] Candidates candidates) {
     std::conditional_t<AnyHit, MaskOf<L>, Hit<L>> result{};
     any_of_kinds<S>([&]<std::uint32_t kind>() {
         const auto& table = scene.primitives(Of<PrimitiveOfKind<typename S::Real, kind>>{});
-        return any_of_table(table, [&](const auto& primitive, [[maybe_unused]] std::uint32_t index) {
-            if constexpr (!All && is_bounded<ShapeOfKind<typename S::Real, kind>>) {
-                if (!next_is_candidate(candidates)) {
-                    return false;
-                }
-            }
+        const auto test = [&](const auto& primitive, [[maybe_unused]] std::uint32_t index) {
             const ShapeHit<L> found = primitive.shape.intersect(to_object(primitive, ray));
             if constexpr (AnyHit) {
                 return keep_blocked(ray, result, found) && none(is_active(ray));
@@ -145,7 +162,12 @@ auto search_tables(const S& scene, Ray<L> ray, [[maybe_unused]] Candidates candi
                 keep_nearest(ray, result, found, kind, index, primitive.tag.id);
                 return false;
             }
-        });
+        };
+        if constexpr (!All && is_bounded<ShapeOfKind<typename S::Real, kind>>) {
+            return any_candidate(table, candidates, test);
+        } else {
+            return any_of_table(table, test);
+        }
     });
     return result;
 }
@@ -302,14 +324,14 @@ private:
     template <std::uint32_t kind>
     bool test_table() {
         const auto& table = scene_.primitives(Of<PrimitiveOfKind<R, kind>>{});
-        return any_of_table(table, [&](const auto& primitive, std::uint32_t index) {
-            if constexpr (is_bounded<ShapeOfKind<R, kind>>) {
-                if (!next_is_candidate(candidates_)) {
-                    return false;
-                }
-            }
+        const auto test_one = [&](const auto& primitive, std::uint32_t index) {
             return test<kind>(primitive, index, live_);
-        });
+        };
+        if constexpr (is_bounded<ShapeOfKind<R, kind>>) {
+            return any_candidate(table, candidates_, test_one);
+        } else {
+            return any_of_table(table, test_one);
+        }
     }
 
     bool test_leaf(std::uint32_t first, std::uint32_t count, unsigned packs) {
