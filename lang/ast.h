@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_set>
 #include <variant>
 #include <vector>
 
@@ -23,7 +24,9 @@ struct Name {
 
 struct Body { ///< `{ items }`
     std::vector<Item> items;
-    Span span; ///< with the braces
+    Span span;             ///< with the braces
+    bool has_gaps = false; ///< an item of it could not be read
+    bool is_open = false;  ///< never closed: what stands in it may belong elsewhere
 };
 
 // ---- types ---------------------------------------------------------------------------------------------
@@ -177,6 +180,7 @@ struct Function {
     std::vector<Formal> formals;
     TypeExprPtr result; ///< null: inferred
     FunctionBody body;
+    bool has_gaps = false; ///< its parameters could not be read
 };
 struct For {
     Name variable;
@@ -208,6 +212,8 @@ struct File {
     std::optional<double> language;
     std::vector<Item> items;
     FileId file = 0;
+    /// Every name in text that could not be read: it may be defined there, so nothing is known of it.
+    std::unordered_set<std::string> lost_names;
 };
 
 } // namespace scc::lang::ast

@@ -26,13 +26,10 @@ Module check(std::shared_ptr<const ast::File> file, const Schema& schema,
     storage->code = Checker(schema, sources, diagnostics, limits).run(*storage->file, definitions);
     Module module;
     module.storage = storage;
-    if (diagnostics.has_errors()) {
-        return module;
-    }
     RunReport report;
     Evaluator evaluator(limits, report);
     const BodyCode& body = storage->code.body;
-    const FramePtr globals = std::make_shared<Frame>(nullptr, body.cells, &storage->captured);
+    const FramePtr globals = std::make_shared<Frame>(nullptr, body.cells, &storage->captured, 0);
     module.params = evaluator.params(storage->code.params, globals);
     module.items = evaluator.run(body, globals);
     module.prints = evaluator.take_prints();

@@ -41,7 +41,7 @@ struct EvaluationLimits {
 };
 
 /// A scene file after checking and evaluation: the things on its top level, in order. Keeps the syntax trees
-/// alive that its closures refer to. Only meaningful if no error was reported.
+/// alive that its closures refer to.
 struct Module {
     std::vector<ThingPtr> items;
     std::vector<Param> params;
@@ -49,8 +49,9 @@ struct Module {
     std::shared_ptr<const void> storage;
 };
 
-/// Types every expression of the file against the schema, reporting all errors, and evaluates it if there
-/// were none. A `-D` that names no `param` is reported at no place (Span{}) as unknown-param.
+/// Types every expression of the file against the schema and evaluates what is right, reporting all errors.
+/// After errors, those of the parser too, the module holds the things that have no mistake in them. A `-D`
+/// that names no `param` is reported at no place (Span{}) as unknown-param.
 Module check(std::shared_ptr<const ast::File> file, const Schema& schema,
              const std::vector<Definition>& definitions, SourceSet& sources, Diagnostics& diagnostics,
              const EvaluationLimits& limits = {});

@@ -74,11 +74,7 @@ Typed Checker::named_call(const ast::Call& node, std::string_view name, Span spa
     } else if (is_unsupported_name(name)) {
         not_supported(name_span, name);
     } else {
-        const auto best = meant_name(name, place, function_names());
-        Diagnostic& diagnostic = diagnostics_.report(Diag::unknown_name, name_span, name, did_you_mean(best));
-        if (best) {
-            diagnostic.suggest(name_span, std::string(*best));
-        }
+        return unknown(name, name_span, place, function_names());
     }
     return {};
 }
@@ -120,6 +116,12 @@ bool Checker::argument_count(std::size_t wanted, std::string_view subject, const
 /// A function known by name: arguments may be named, and those with defaults left out.
 Typed Checker::function_call(const ast::Call& node, Binding& binding, Span span, const Place& place) {
     Typed callee = reference(binding, node.callee->span, place);
+    if (!callee.code) {
+        for (const ast::Argument& argument : node.arguments) {
+            expression(argument.value, place.unnamed());
+        }
+        return {};
+    }
     const std::vector<ast::Formal>& formals = binding.function->formals;
     std::vector<Typed> values(formals.size());
     std::vector<const ast::Expr*> given(formals.size(), nullptr);
@@ -139,19 +141,25 @@ Typed Checker::function_call(const ast::Call& node, Binding& binding, Span span,
             continue;
         }
         given[at] = argument.value.get();
-        expect(in_code(formals[at].name.text), binding.type.args[at], value.type, *argument.value);
+        expect(in_code(formals[at].name.text), binding.type.args[at], value, *argument.value);
         values[at] = std::move(value);
     }
     if (understood && node.arguments.size() > formals.size()) {
         argument_count(formals.size(), in_code(binding.name), node, span);
         understood = false;
     }
+    bool is_complete = understood;
     for (std::size_t i = 0; i < formals.size() && understood; ++i) {
         if (!given[i] && !formals[i].default_value) {
             diagnostics_.report(Diag::missing_argument, span, binding.name, formals[i].name.text);
+            is_complete = false;
         }
     }
-    return {binding.type.args.back(), make_code(code::Call{std::move(callee.code), codes(values)}, span)};
+    const Type& result = binding.type.args.back();
+    if (!is_complete) {
+        return {result, nullptr};
+    }
+    return {result, make_code(code::Call{std::move(callee.code), codes(values)}, span)};
 }
 
 /// The index of the parameter that an argument is for; past the last one if there are too many.
@@ -203,10 +211,11 @@ Typed Checker::value_call(const ast::Call& node, Span span, const Place& place) 
         return {};
     }
     const std::size_t count = callee.type.args.size() - 1;
-    if (argument_count(count, "this function", node, span)) {
-        for (std::size_t i = 0; i < count; ++i) {
-            expect("this parameter", callee.type.args[i], values[i].type, *node.arguments[i].value);
-        }
+    if (!argument_count(count, "this function", node, span)) {
+        return {callee.type.args.back(), nullptr};
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        expect("this parameter", callee.type.args[i], values[i], *node.arguments[i].value);
     }
     return {callee.type.args.back(), make_code(code::Call{std::move(callee.code), codes(values)}, span)};
 }
@@ -229,7 +238,7 @@ Typed Checker::builtin_call(const ast::Call& node, const Builtin& builtin, Span 
 
 /// Explains a mismatch as narrowly as the overloads allow: one argument, the number of arguments, or all of
 /// it.
-void Checker::no_overload(const ast::Call& node, const Builtin& builtin, const std::vector<Typed>& values,
+void Checker::no_overload(const ast::Call& node, const Builtin& builtin, std::vector<Typed>& values,
                           Span span) {
     std::vector<const Overload*> of_this_length;
     std::vector<std::string> spellings;
@@ -245,7 +254,7 @@ void Checker::no_overload(const ast::Call& node, const Builtin& builtin, const s
                                         [&](std::size_t length) { return length == lengths.front(); });
     if (of_this_length.size() == 1) {
         for (std::size_t i = 0; i < values.size(); ++i) {
-            expect(in_code(builtin.name), of_this_length[0]->parameters[i], values[i].type,
+            expect(in_code(builtin.name), of_this_length[0]->parameters[i], values[i],
                    *node.arguments[i].value);
         }
     } else if (of_this_length.empty() && one_length) {
@@ -277,7 +286,7 @@ Typed Checker::list_call(const ast::Call& node, std::string_view name, Span span
         return {};
     }
     const Type list = values[0].type;
-    if (!expect(in_code(name), Type::list_of({}), list, *node.arguments[0].value)) {
+    if (!expect(in_code(name), Type::list_of({}), values[0], *node.arguments[0].value)) {
         return {};
     }
     const Type element = list.kind == TypeKind::list ? list.args[0] : Type{};

@@ -7,7 +7,8 @@ Typed Checker::reference(Binding& binding, Span span, const Place& place) {
     Names::note_use(binding, span, place.owner);
     ensure(binding);
     const std::uint32_t depth = Names::depth(place.scope, binding.scope);
-    if (binding.kind == Binding::Kind::alias || !binding.type_known) {
+    const bool has_gaps = binding.function && binding.function->has_gaps;
+    if (binding.kind == Binding::Kind::alias || !binding.type_known || binding.is_spoilt || has_gaps) {
         return {};
     }
     if (binding.kind == Binding::Kind::function) {
@@ -53,7 +54,7 @@ void Checker::ensure_let(Binding& binding) {
     }
     Typed value = expression(let.value, place);
     if (let.type && let.value) {
-        expect(in_code(binding.name), binding.type, value.type, *let.value);
+        expect(in_code(binding.name), binding.type, value, *let.value);
     } else {
         binding.type = std::move(value.type);
     }
@@ -76,7 +77,7 @@ void Checker::defaults(const std::vector<ast::Formal>& formals, const std::vecto
     for (std::size_t i = 0; i < formals.size(); ++i) {
         Typed value = expression(formals[i].default_value, place.unnamed());
         if (formals[i].default_value) {
-            expect(in_code(formals[i].name.text), types[i], value.type, *formals[i].default_value);
+            expect(in_code(formals[i].name.text), types[i], value, *formals[i].default_value);
         }
         function.defaults.push_back(std::move(value.code));
     }
@@ -126,7 +127,7 @@ void Checker::ensure_function(Binding& binding) {
     }
     Typed result = expression(function.body.result, {&scope, &binding, binding.name});
     if (function.result && function.body.result) {
-        expect(fmt::format("the result of `{}`", binding.name), binding.type.args.back(), result.type,
+        expect(fmt::format("the result of `{}`", binding.name), binding.type.args.back(), result,
                *function.body.result);
     } else {
         binding.type.args.back() = std::move(result.type);
@@ -134,7 +135,13 @@ void Checker::ensure_function(Binding& binding) {
     }
     binding.type_known = true;
     binding.state = Binding::State::checked;
-    code.result = std::move(result.code);
+    if (std::holds_alternative<ast::ErrorExpr>(function.body.result->node)) { // what would have used them
+        for (Binding* local : scope.cells) {
+            local->used = true;
+        }
+    }
+    code.result =
+        binding.needs_result_type ? make_code(code::Failed{}, function.name.span) : std::move(result.code);
     close(scope, code.cells);
 }
 

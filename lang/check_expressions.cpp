@@ -102,9 +102,14 @@ Typed Checker::expression(const ast::ExprPtr& expr, const Place& place) {
     }
     if (stack_.exhausted()) {
         diagnostics_.report(Diag::too_deep, expr->span);
-        return {};
+        unused_is_known_ = false;
+        return {{}, make_code(code::Failed{}, expr->span)};
     }
-    return std::visit([&](const auto& node) { return check(node, *expr, place); }, expr->node);
+    Typed typed = std::visit([&](const auto& node) { return check(node, *expr, place); }, expr->node);
+    if (!typed.code) {
+        typed.code = make_code(code::Failed{}, expr->span);
+    }
+    return typed;
 }
 
 Typed Checker::check(const ast::ErrorExpr&, const ast::Expr&, const Place&) {
@@ -163,11 +168,7 @@ Typed Checker::unknown_name(const ast::NameRef& node, Span span, const Place& pl
     } else if (find_builtin(node.name) || is_list_function(node.name)) {
         diagnostics_.report(Diag::bare_builtin, span, in_code(node.name));
     } else {
-        const auto best = meant_name(node.name, place, {"pi"});
-        Diagnostic& diagnostic = diagnostics_.report(Diag::unknown_name, span, node.name, did_you_mean(best));
-        if (best) {
-            diagnostic.suggest(span, std::string(*best));
-        }
+        return unknown(node.name, span, place, {"pi"});
     }
     return {};
 }
@@ -176,7 +177,7 @@ Typed Checker::check(const ast::Tuple& node, const ast::Expr& expr, const Place&
     code::Tuple tuple;
     for (const ast::ExprPtr& element : node.elements) {
         Typed part = expression(element, place.unnamed());
-        expect("a vector's component", TypeKind::number, part.type, *element);
+        expect("a vector's component", TypeKind::number, part, *element);
         tuple.elements.push_back(std::move(part.code));
     }
     return {node.elements.size() == 2 ? TypeKind::vec2 : TypeKind::vec3,
@@ -188,11 +189,12 @@ Typed Checker::check(const ast::List& node, const ast::Expr& expr, const Place& 
     Type element;
     for (const ast::ExprPtr& written : node.elements) {
         Typed part = expression(written, place);
-        if (element.kind == TypeKind::error) {
-            element = part.type;
-        } else if (!fits(element, part.type)) {
+        if (fits(element, part.type)) {
+            element = joined(element, part.type);
+        } else {
             diagnostics_.report(Diag::element_mismatch, written->span, described(element),
                                 described(part.type));
+            part.code = make_code(code::Failed{}, written->span);
         }
         list.elements.push_back(std::move(part.code));
     }
@@ -226,7 +228,7 @@ Typed Checker::check(const ast::Comprehension& node, const ast::Expr& expr, cons
 
 Typed Checker::check(const ast::Conditional& node, const ast::Expr& expr, const Place& place) {
     Typed condition = expression(node.condition, place.unnamed());
-    expect("`if`", TypeKind::boolean, condition.type, *node.condition);
+    expect("`if`", TypeKind::boolean, condition, *node.condition);
     Typed yes = expression(node.yes, place);
     Typed no = expression(node.no, place);
     if (!fits(yes.type, no.type)) {
@@ -234,7 +236,7 @@ Typed Checker::check(const ast::Conditional& node, const ast::Expr& expr, const 
             .note(node.yes->span, "the first branch is here");
         return {};
     }
-    return {yes.type.kind == TypeKind::error ? no.type : yes.type,
+    return {joined(yes.type, no.type),
             make_code(code::Conditional{std::move(condition.code), std::move(yes.code), std::move(no.code)},
                       expr.span)};
 }
@@ -243,7 +245,7 @@ Typed Checker::check(const ast::Unary& node, const ast::Expr& expr, const Place&
     Typed operand = expression(node.operand, place.unnamed());
     const TypeKind kind = operand.type.kind;
     if (node.op == ast::UnaryOp::logical_not) {
-        expect("`not`", TypeKind::boolean, operand.type, *node.operand);
+        expect("`not`", TypeKind::boolean, operand, *node.operand);
         return {TypeKind::boolean, make_code(code::Unary{node.op, std::move(operand.code)}, expr.span)};
     }
     if (kind != TypeKind::error && arithmetic_result(ast::BinaryOp::add, kind, kind) == TypeKind::error) {
@@ -297,10 +299,10 @@ Typed Checker::check(const ast::Member& node, const ast::Expr& expr, const Place
 Typed Checker::check(const ast::Index& node, const ast::Expr& expr, const Place& place) {
     Typed object = expression(node.object, place.unnamed());
     Typed index = expression(node.index, place.unnamed());
-    expect("an index", TypeKind::number, index.type, *node.index);
     if (object.type.kind == TypeKind::error) {
         return {};
     }
+    expect("an index", TypeKind::number, index, *node.index);
     if (object.type.kind != TypeKind::list) {
         diagnostics_.report(Diag::not_indexable, node.object->span, described(object.type));
         return {};

@@ -4,9 +4,30 @@
 namespace scc::lang {
 namespace {
 
+template <class Item>
+constexpr bool is_definition = std::is_same_v<Item, ast::Let> || std::is_same_v<Item, ast::Function> ||
+                               std::is_same_v<Item, ast::Param> || std::is_same_v<Item, ast::Import>;
+
+/// What the text of an expression begins with.
+const ast::Expr& leftmost(const ast::Expr& expr) {
+    if (const auto* binary = std::get_if<ast::Binary>(&expr.node)) {
+        return leftmost(*binary->left);
+    }
+    if (const auto* index = std::get_if<ast::Index>(&expr.node)) {
+        return leftmost(*index->object);
+    }
+    if (const auto* call = std::get_if<ast::Call>(&expr.node)) {
+        return leftmost(*call->callee);
+    }
+    const auto* member = std::get_if<ast::Member>(&expr.node);
+    return member ? leftmost(*member->object) : expr;
+}
+
 bool defines_names(const std::vector<ast::Item>& items) {
     for (const ast::Item& item : items) {
-        if (std::holds_alternative<ast::Let>(item.node) || std::holds_alternative<ast::Function>(item.node)) {
+        const bool defines = std::visit(
+            [](const auto& node) { return is_definition<std::decay_t<decltype(node)>>; }, item.node);
+        if (defines) {
             return true;
         }
     }
@@ -16,6 +37,7 @@ bool defines_names(const std::vector<ast::Item>& items) {
 } // namespace
 
 CheckedFile Checker::run(const ast::File& file, const std::vector<Definition>& given) {
+    lost_names_ = &file.lost_names;
     find_unit(file);
     CheckedFile checked;
     Scope& scope = names_.add_scope(nullptr);
@@ -23,7 +45,9 @@ CheckedFile Checker::run(const ast::File& file, const std::vector<Definition>& g
     check_definitions(declare(file.items, place, true));
     Fields fields;
     checked.body.has_frame = true;
-    checked.body.items = items(file.items, {nullptr, true, true, false, &fields}, place);
+    bool is_sound = true;
+    const Around around{.is_file = true, .at_top = true, .fields = &fields, .is_sound = &is_sound};
+    checked.body.items = items(file.items, around, place);
     for (Binding* binding : scope.cells) {
         if (binding->kind == Binding::Kind::param) {
             checked.params.push_back(param_code(*binding));
@@ -31,8 +55,8 @@ CheckedFile Checker::run(const ast::File& file, const std::vector<Definition>& g
     }
     definitions(given, scope, checked.params);
     names_.report_cycles();
-    if (!diagnostics_.has_errors()) { // a misspelt use would leave its name unused
-        names_.warn_unused();
+    if (unused_is_known_) { // a misspelt use would leave its name unused
+        names_.warn_unused([this](std::string_view name) { return is_lost(name); });
     }
     close(scope, checked.body.cells);
     checked.functions = std::move(functions_);
@@ -66,9 +90,9 @@ std::vector<Binding*> Checker::declare(const std::vector<ast::Item>& items, cons
             binding.function_code = &functions_.emplace_back();
             binding.function_code->name = binding.name;
             binding.function_code->span = binding.span;
-        } else if (const auto* param = std::get_if<ast::Param>(&item.node); param && at_top) {
-            add(Binding::Kind::param, param->name)->param = param;
-        } else if (const auto* import = std::get_if<ast::Import>(&item.node); import && at_top) {
+        } else if (const auto* param = std::get_if<ast::Param>(&item.node)) {
+            add(at_top ? Binding::Kind::param : Binding::Kind::alias, param->name)->param = param;
+        } else if (const auto* import = std::get_if<ast::Import>(&item.node)) {
             add(Binding::Kind::alias, import->alias);
         }
     }
@@ -103,35 +127,53 @@ std::vector<ItemCode> Checker::items(const std::vector<ast::Item>& items, const 
 }
 
 BodyCode Checker::body(const ast::Body& body, const Around& around, const Place& place) {
+    const Around within = inside(body, around);
+    const Open open(open_bodies_, body.is_open);
     BodyCode code;
     code.has_frame = defines_names(body.items);
     if (!code.has_frame) {
-        code.items = items(body.items, around, place);
+        code.items = items(body.items, within, place);
         return code;
     }
     Scope& scope = names_.add_scope(place.scope);
     const Place inner{&scope, place.owner, {}};
     check_definitions(declare(body.items, inner, false));
-    code.items = items(body.items, around, inner);
+    code.items = items(body.items, within, inner);
     close(scope, code.cells);
     return code;
 }
 
+/// What stands in braces that are never closed may belong anywhere.
+Checker::Around Checker::inside(const ast::Body& body, const Around& around) {
+    *around.is_sound = *around.is_sound && !body.has_gaps && !body.is_open;
+    Around within = around;
+    within.is_open = around.is_open || body.is_open;
+    return within;
+}
+
 void Checker::item(const ast::Import& item, Span span, const Into& into) {
     if (!into.around.at_top) {
-        diagnostics_.report(Diag::misplaced_item, span, "an `import`");
+        misplaced(span, "an `import`", into.around);
         return;
     }
-    not_supported(span, "import");
-    if (item.with) { // its values use names of this file
-        Fields fields;
-        body(*item.with, {nullptr, false, false, false, &fields}, into.place);
+    if (!std::holds_alternative<ast::ErrorExpr>(item.path->node)) {
+        not_supported(span, "import");
     }
+    if (item.with) { // its values use names of this file
+        unknown_body(*item.with, into.place);
+    }
+}
+
+void Checker::misplaced(Span span, std::string_view what, const Around& around) {
+    if (open_bodies_ == 0) {
+        diagnostics_.report(Diag::misplaced_item, span, what);
+    }
+    *around.is_sound = false;
 }
 
 void Checker::item(const ast::Param&, Span span, const Into& into) {
     if (!into.around.at_top) {
-        diagnostics_.report(Diag::misplaced_item, span, "a `param`");
+        misplaced(span, "a `param`", into.around);
     }
 }
 
@@ -146,11 +188,15 @@ void Checker::item(const ast::For& item, Span span, const Into& into) {
     bind(scope, Binding::Kind::variable, item.variable, into.place.owner).type =
         item.range ? element_of(range.type, item.range->span) : Type{};
     check_definitions(declare(item.body.items, inner, false));
-    Around around = into.around;
+    Around around = inside(item.body, into.around);
     around.at_top = false;
     around.in_loop = true;
     constexpr std::uint32_t length_of_for = 3;
     const Span word{span.file, span.begin, span.begin + length_of_for};
+    const Open open(open_bodies_, item.body.is_open);
+    if (item.body.is_open) { // nobody knows what it repeats
+        range.code = make_code(code::Failed{}, range.code->span);
+    }
     ForCode loop{
         std::move(range.code), {true, {}, items(item.body.items, around, inner)}, item.variable.text, word};
     close(scope, loop.body.cells);
@@ -160,7 +206,7 @@ void Checker::item(const ast::For& item, Span span, const Into& into) {
 void Checker::item(const ast::If& item, Span, const Into& into) {
     Typed condition = expression(item.condition, into.place.unnamed());
     if (item.condition) {
-        expect("`if`", TypeKind::boolean, condition.type, *item.condition);
+        expect("`if`", TypeKind::boolean, condition, *item.condition);
     }
     Around around = into.around;
     around.at_top = false;
@@ -191,13 +237,32 @@ BodyCode Checker::otherwise(const ast::Item* written, const Around& around, cons
 void Checker::item(const ast::Block&, Span, const Into&) {}
 
 void Checker::item(const ast::Child& item, Span, const Into& into) {
-    if (!item.value || statement(item, into)) {
+    if (statement(item, into) || unassigned_field(*item.value, into)) {
         return;
     }
     Typed value = expression(item.value, into.place.unnamed());
     if (child_fits(value.type, into.around, item.value->span)) {
         into.out.push_back({ChildCode{std::move(value.code)}});
     }
+}
+
+/// `radius -1`, `points [a, b]`: a field without its `=` reads as an expression.
+bool Checker::unassigned_field(const ast::Expr& value, const Into& into) {
+    const ast::Expr& first = leftmost(value);
+    const auto* word = std::get_if<ast::NameRef>(&first.node);
+    const bool is_field = word && into.around.thing && into.around.thing->find(word->name);
+    if (!is_field || &first == &value || Names::find(into.place.scope, word->name)) {
+        return false;
+    }
+    const std::string_view rest = sources_.text({value.span.file, first.span.end, value.span.end});
+    const std::size_t blanks = std::min(rest.find_first_not_of(" \t\r\n"), rest.size());
+    const std::uint32_t next = first.span.end + static_cast<std::uint32_t>(blanks);
+    const Span gap{value.span.file, first.span.end, first.span.end};
+    diagnostics_
+        .report(Diag::field_assignment, {value.span.file, next, next + 1}, rest.substr(blanks, 1), word->name)
+        .suggest(gap, blanks == 0 ? " = " : " =");
+    *into.around.is_sound = false;
+    return true;
 }
 
 /// `assert(condition, "text")` and `print(value)`.
@@ -216,8 +281,8 @@ bool Checker::statement(const ast::Child& item, const Into& into) {
         into.out.push_back({PrintCode{std::move(values[0].code)}});
         return true;
     }
-    expect("`assert`", TypeKind::boolean, values[0].type, *call->arguments[0].value);
-    expect("the text of `assert`", TypeKind::string, values[1].type, *call->arguments[1].value);
+    expect("`assert`", TypeKind::boolean, values[0], *call->arguments[0].value);
+    expect("the text of `assert`", TypeKind::string, values[1], *call->arguments[1].value);
     into.out.push_back({AssertCode{std::move(values[0].code), std::move(values[1].code)}});
     return true;
 }

@@ -87,7 +87,7 @@ ParamCode Checker::param_code(Binding& binding) {
     const Place place{binding.scope, &binding, {}};
     Typed value = expression(item.default_value, place);
     if (item.default_value) {
-        expect(fmt::format("the param `{}`", binding.name), binding.type, value.type, *item.default_value);
+        expect(fmt::format("the param `{}`", binding.name), binding.type, value, *item.default_value);
     }
     binding.code = std::move(value.code);
     if (item.range) {
@@ -108,8 +108,8 @@ void Checker::param_range(const ast::Param& item, const Type& type, const Place&
     Typed begin = expression(range->left, place);
     Typed end = expression(range->right, place);
     const std::string subject = fmt::format("the range of `{}`", item.name.text);
-    expect(subject, type, begin.type, *range->left);
-    expect(subject, type, end.type, *range->right);
+    expect(subject, type, begin, *range->left);
+    expect(subject, type, end, *range->right);
     code.begin = std::move(begin.code);
     code.end = std::move(end.code);
 }
@@ -122,6 +122,9 @@ void Checker::definitions(const std::vector<Definition>& definitions, const Scop
         for (ParamCode& param : params) {
             found = param.name == definition.name ? &param : found;
             names.push_back(param.name);
+        }
+        if (!found && is_lost(definition.name)) {
+            continue;
         }
         if (!found) {
             diagnostics_.report(Diag::unknown_param, Span{}, definition.name,
@@ -149,7 +152,7 @@ CodePtr Checker::given_value(const Definition& definition, const ParamCode& para
     Scope& scope = names_.add_scope(nullptr);
     Typed value = expression(expr, {&scope, nullptr, {}});
     if (expr) {
-        expect(fmt::format("the param `{}`", param.name), param.type, value.type, *expr);
+        expect(fmt::format("the param `{}`", param.name), param.type, value, *expr);
     }
     return std::move(value.code);
 }

@@ -19,29 +19,43 @@ const Type& innermost(const Type& type) {
 
 Typed Checker::check(const ast::Construct& node, const ast::Expr& expr, const Place& place) {
     const Constructor* row = schema_.find(node.constructor.text);
-    Fields fields;
     if (!row) {
         unknown_constructor(node, place);
-        body(node.body, {nullptr, false, false, false, &fields}, place.unnamed());
+        unknown_body(node.body, place);
         return {};
     }
     if (!row->supported) {
         not_supported(node.constructor.span, row->name);
-        body(node.body, {nullptr, false, false, false, &fields}, place.unnamed());
+        unknown_body(node.body, place);
         return {row->type, nullptr};
     }
-    code::Construct thing{row, body(node.body, {row, false, false, false, &fields}, place.unnamed()),
-                          place.thing_name, node.constructor.span};
+    Fields fields;
+    bool is_sound = true;
+    const Around around{.thing = row, .fields = &fields, .is_sound = &is_sound};
+    code::Construct thing{
+        row, body(node.body, around, place.unnamed()), place.thing_name, node.constructor.span, {}, false};
     for (const Field& field : row->fields) {
-        if (field.required && !fields.contains(field.name)) {
+        if (field.required && fields.contains(field.name)) {
+            thing.required.push_back(&field);
+        } else if (field.required && is_sound) { // else it may be what was reported
             diagnostics_.report(Diag::missing_field, node.constructor.span, in_code(row->name), field.name);
+            is_sound = false;
         }
     }
+    thing.is_sound = is_sound;
     return {row->type, make_code(std::move(thing), expr.span)};
+}
+
+/// The expressions within a thing of which nothing is known.
+void Checker::unknown_body(const ast::Body& inside, const Place& place) {
+    body(inside, {.fields = &any_fields_, .is_sound = &any_soundness_}, place.unnamed());
 }
 
 void Checker::unknown_constructor(const ast::Construct& node, const Place& place) {
     const ast::Name& name = node.constructor;
+    if (is_lost(name.text)) {
+        return;
+    }
     const Binding* binding = Names::find(place.scope, name.text);
     const bool is_function = binding ? binding->kind == Binding::Kind::function
                                      : find_builtin(name.text) || is_list_function(name.text);
@@ -71,9 +85,10 @@ void Checker::item(const ast::Field& item, Span, const Into& into) {
     }
     if (row) {
         not_supported(item.name.span, row->name);
-    } else if (around.thing) {
+    } else if (around.thing && !around.is_open && !item.name.text.empty()) {
         unknown_field(item, *around.thing);
     }
+    *around.is_sound = false;
     expression(item.value, into.place.unnamed());
 }
 
@@ -92,12 +107,16 @@ void Checker::unknown_field(const ast::Field& item, const Constructor& thing) {
 
 void Checker::field_value(const ast::Field& item, const Field& row, const Into& into) {
     const auto [first, is_first] = into.around.fields->try_emplace(row.name, item.name.span);
-    if (!is_first) {
+    if (into.around.is_open) {
+        // it may be the field of another thing
+    } else if (!is_first) {
         diagnostics_.report(Diag::duplicate_field, item.name.span, row.name)
             .note(first->second, "it is set here");
     } else if (into.around.in_loop) {
         diagnostics_.report(Diag::field_in_loop, item.name.span, row.name);
     }
+    const bool is_only = is_first && !into.around.in_loop;
+    *into.around.is_sound = *into.around.is_sound && is_only;
     Typed value = expression(item.value, into.place.unnamed());
     if (!item.value) {
         return;
@@ -105,37 +124,44 @@ void Checker::field_value(const ast::Field& item, const Field& row, const Into& 
     const Type per_point = Type::function({TypeKind::surface}, row.type);
     if (!row.per_point || !fits(per_point, value.type)) {
         const bool is_function = row.per_point && value.type.kind == TypeKind::function;
-        expect(in_code(row.name), row.type, value.type, *item.value,
+        expect(in_code(row.name), row.type, value, *item.value,
                is_function ? " or a function `" + to_string(per_point) + "`" : "");
     }
-    check_choice(*item.value, row);
+    if (!check_choice(*item.value, row)) {
+        value.code = make_code(code::Failed{}, item.value->span);
+    }
     const bool is_unit = into.around.thing->name == "world" && row.name == "unit";
     if (is_unit && value.type.kind == TypeKind::string &&
         std::find(unit_fields_.begin(), unit_fields_.end(), &item) == unit_fields_.end()) {
         diagnostics_.report(Diag::unit_not_literal, item.value->span);
+        value.code = make_code(code::Failed{}, item.value->span);
     }
     into.out.push_back({FieldCode{&row, std::move(value.code), item.name.span}});
 }
 
 /// Choices are checked once more where they are evaluated; here a misspelt one is found in code that does not
 /// run.
-void Checker::check_choice(const ast::Expr& value, const Field& row) {
+bool Checker::check_choice(const ast::Expr& value, const Field& row) {
     const auto* text = std::get_if<ast::String>(&value.node);
     if (!text || row.choices.empty() ||
         std::find(row.choices.begin(), row.choices.end(), text->value) != row.choices.end()) {
-        return;
+        return true;
     }
     Diagnostic& diagnostic = diagnostics_.report(Diag::unknown_choice, value.span, row.name,
                                                  to_string(Value{text->value}), choice_rule(row));
     if (const auto best = nearest(text->value, row.choices)) {
         diagnostic.suggest(value.span, to_string(Value{std::string(*best)}));
     }
+    return false;
 }
 
 bool Checker::child_fits(const Type& type, const Around& around, Span span) {
     const Type& item = innermost(type);
     if (item.kind == TypeKind::error) {
         return true;
+    }
+    if (open_bodies_ > 0) {
+        return false;
     }
     if (around.is_file) {
         if (!is_scene_item(item.kind)) {
@@ -148,6 +174,7 @@ bool Checker::child_fits(const Type& type, const Around& around, Span span) {
         return false;
     }
     const bool fits_here = around.thing->takes_children && item.kind == TypeKind::shape;
+    *around.is_sound = *around.is_sound && fits_here;
     if (!fits_here) {
         diagnostics_.report(Diag::unexpected_item, span, in_code(around.thing->name),
                             around.thing->takes_children ? "shapes" : "only fields", described(type));

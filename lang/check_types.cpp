@@ -26,32 +26,37 @@ bool is_literal(const ast::Expr& expr) {
 
 } // namespace
 
-bool Checker::expect(std::string_view subject, const Type& wanted, const Type& actual, const ast::Expr& value,
+bool Checker::expect(std::string_view subject, const Type& wanted, Typed& value, const ast::Expr& expr,
                      std::string_view alternative) {
-    if (fits(wanted, actual)) {
+    const Type& actual = value.type;
+    if (wanted.kind != TypeKind::error && fits(wanted, actual)) {
         return true;
     }
-    const std::string text(sources_.text(value.span));
+    value.code = make_code(code::Failed{}, expr.span);
+    if (wanted.kind == TypeKind::error) {
+        return true;
+    }
+    const std::string text(sources_.text(expr.span));
     if (wanted.kind == TypeKind::angle && actual.kind == TypeKind::number) {
-        Diagnostic& diagnostic = diagnostics_.report(Diag::angle_expected, value.span, subject);
-        if (is_literal(value)) {
-            diagnostic.suggest(value.span, text + "deg");
+        Diagnostic& diagnostic = diagnostics_.report(Diag::angle_expected, expr.span, subject);
+        if (is_literal(expr)) {
+            diagnostic.suggest(expr.span, text + "deg");
         }
         return false;
     }
     const bool like_color = actual.kind == TypeKind::number || actual.kind == TypeKind::vec3;
     if (wanted.kind == TypeKind::color && like_color) {
         Diagnostic& diagnostic =
-            diagnostics_.report(Diag::color_expected, value.span, subject, described(actual));
-        if (is_literal(value)) {
-            diagnostic.suggest(value.span, fmt::format("rgb({0}, {0}, {0})", text));
-        } else if (std::holds_alternative<ast::Tuple>(value.node)) {
-            diagnostic.suggest(value.span, "rgb" + text);
+            diagnostics_.report(Diag::color_expected, expr.span, subject, described(actual));
+        if (is_literal(expr)) {
+            diagnostic.suggest(expr.span, fmt::format("rgb({0}, {0}, {0})", text));
+        } else if (std::holds_alternative<ast::Tuple>(expr.node)) {
+            diagnostic.suggest(expr.span, "rgb" + text);
         }
         return false;
     }
-    diagnostics_.report(Diag::type_mismatch, value.span, subject,
-                        described(wanted) + std::string(alternative), described(actual));
+    diagnostics_.report(Diag::type_mismatch, expr.span, subject, described(wanted) + std::string(alternative),
+                        described(actual));
     return false;
 }
 
@@ -72,6 +77,21 @@ std::optional<std::string_view> Checker::meant_name(std::string_view name, const
     return nearest(name, others);
 }
 
+/// Reports a name that means nothing, unless it may be defined in text that could not be read.
+Typed Checker::unknown(std::string_view name, Span span, const Place& place,
+                       std::vector<std::string_view> others) {
+    unused_is_known_ = false;
+    if (is_lost(name)) {
+        return {};
+    }
+    const auto best = meant_name(name, place, std::move(others));
+    Diagnostic& diagnostic = diagnostics_.report(Diag::unknown_name, span, name, did_you_mean(best));
+    if (best) {
+        diagnostic.suggest(span, std::string(*best));
+    }
+    return {};
+}
+
 Type Checker::bounded(Type type, Span span) {
     if (depth_of(type) <= deepest_type) {
         return type;
@@ -80,11 +100,15 @@ Type Checker::bounded(Type type, Span span) {
     return {};
 }
 
+/// The error type if any part of it is not known.
 Type Checker::type(const ast::TypeExpr* written) {
     if (!written) {
         return {};
     }
     if (const auto* named = std::get_if<ast::NamedType>(&written->node)) {
+        if (named->name.text.empty()) { // could not be read
+            return {};
+        }
         if (const TypeKind* kind = named_type(named->name.text)) {
             return *kind;
         }
@@ -96,15 +120,21 @@ Type Checker::type(const ast::TypeExpr* written) {
         }
         return {};
     }
+    std::vector<Type> parts;
+    TypeKind kind = TypeKind::list;
     if (const auto* list = std::get_if<ast::ListType>(&written->node)) {
-        return bounded(Type::list_of(type(list->element.get())), written->span);
+        parts.push_back(type(list->element.get()));
+    } else {
+        const auto& function = std::get<ast::FunctionType>(written->node);
+        kind = TypeKind::function;
+        for (const ast::TypeExprPtr& parameter : function.parameters) {
+            parts.push_back(type(parameter.get()));
+        }
+        parts.push_back(type(function.result.get()));
     }
-    const auto& function = std::get<ast::FunctionType>(written->node);
-    std::vector<Type> parameters;
-    for (const ast::TypeExprPtr& parameter : function.parameters) {
-        parameters.push_back(type(parameter.get()));
-    }
-    return bounded(Type::function(std::move(parameters), type(function.result.get())), written->span);
+    const bool is_known = std::none_of(parts.begin(), parts.end(),
+                                       [](const Type& part) { return part.kind == TypeKind::error; });
+    return is_known ? bounded({kind, std::move(parts)}, written->span) : Type{};
 }
 
 } // namespace scc::lang

@@ -16,6 +16,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 namespace scc::lang {
@@ -28,7 +29,8 @@ struct CheckedFile {
     std::deque<ast::ExprPtr> given; ///< the syntax of `-D`, which the code refers to as it does to the file's
 };
 
-/// An expression's type and code; the code is null where something was reported.
+/// An expression's type and code. Where something was reported the code is null, as what a check() returns,
+/// or code::Failed, as what expression() returns; so no value ever contradicts its type at run time.
 struct Typed {
     Type type;
     CodePtr code;
@@ -60,9 +62,24 @@ private:
     struct Around {
         const Constructor* thing = nullptr; ///< null: the file, or an unknown thing
         bool is_file = false;               ///< in loops and conditions too
+        bool is_open = false;               ///< in braces that are never closed
         bool at_top = false;                ///< not in those
         bool in_loop = false;
         Fields* fields = nullptr; ///< set so far
+        bool* is_sound = nullptr; ///< becomes false with the first mistake in its fields and items
+    };
+
+    /// Within a body whose braces are never closed.
+    class Open {
+    public:
+        Open(int& count, bool is_open) : count_(count), is_open_(is_open) { count_ += is_open_ ? 1 : 0; }
+        ~Open() { count_ -= is_open_ ? 1 : 0; }
+        Open(const Open&) = delete;
+        Open& operator=(const Open&) = delete;
+
+    private:
+        int& count_;
+        bool is_open_;
     };
 
     /// Where the code of an item goes.
@@ -79,6 +96,7 @@ private:
     std::vector<ItemCode> items(const std::vector<ast::Item>& items, const Around& around,
                                 const Place& place);
     BodyCode body(const ast::Body& body, const Around& around, const Place& place);
+    Around inside(const ast::Body& body, const Around& around);
     BodyCode otherwise(const ast::Item* item, const Around& around, const Place& place);
     void item(const ast::Import& item, Span span, const Into& into);
     void item(const ast::Param& item, Span span, const Into& into);
@@ -89,15 +107,18 @@ private:
     void item(const ast::Block& item, Span span, const Into& into);
     void item(const ast::Field& item, Span span, const Into& into);
     void item(const ast::Child& item, Span span, const Into& into);
+    bool unassigned_field(const ast::Expr& value, const Into& into);
     bool statement(const ast::Child& item, const Into& into);
+    void misplaced(Span span, std::string_view what, const Around& around);
     void close(Scope& scope, std::vector<CodePtr>& cells);
 
     // check_things.cpp
     Typed check(const ast::Construct& node, const ast::Expr& expr, const Place& place);
     void field_value(const ast::Field& item, const Field& row, const Into& into);
+    void unknown_body(const ast::Body& body, const Place& place);
     void unknown_constructor(const ast::Construct& node, const Place& place);
     void unknown_field(const ast::Field& item, const Constructor& thing);
-    void check_choice(const ast::Expr& value, const Field& row);
+    bool check_choice(const ast::Expr& value, const Field& row);
     bool child_fits(const Type& type, const Around& around, Span span);
 
     // check_definitions.cpp
@@ -157,14 +178,15 @@ private:
                                 const Binding& function);
     std::vector<Typed> arguments(const ast::Call& node, std::string_view subject, const Place& place);
     bool argument_count(std::size_t wanted, std::string_view subject, const ast::Call& node, Span span);
-    void no_overload(const ast::Call& node, const Builtin& builtin, const std::vector<Typed>& values,
-                     Span span);
+    void no_overload(const ast::Call& node, const Builtin& builtin, std::vector<Typed>& values, Span span);
     void suspect_degrees(const ast::Call& node, std::string_view name);
 
     // check_types.cpp
-    /// Reports a value of another type; gives whether it fits.
-    bool expect(std::string_view subject, const Type& wanted, const Type& actual, const ast::Expr& value,
+    /// Reports a value of another type, and spoils its code; gives whether it fits.
+    bool expect(std::string_view subject, const Type& wanted, Typed& value, const ast::Expr& expr,
                 std::string_view alternative = {});
+    bool is_lost(std::string_view name) const { return lost_names_->contains(std::string(name)); }
+    Typed unknown(std::string_view name, Span span, const Place& place, std::vector<std::string_view> others);
     void not_supported(Span span, std::string_view what);
     /// What the author may have meant by an unknown name; given up after many of them, since each costs a
     /// search.
@@ -178,8 +200,13 @@ private:
     Names names_;
     std::deque<FunctionCode> functions_;
     std::deque<ast::ExprPtr> given_;
+    const std::unordered_set<std::string>* lost_names_ = nullptr;
+    bool unused_is_known_ = true; ///< no use of a name went unseen
     ast::Unit world_unit_ = ast::Unit::m;
     std::vector<const ast::Field*> unit_fields_; ///< those that find_unit could read
+    Fields any_fields_;                          ///< of things of which nothing is known
+    bool any_soundness_ = true;
+    int open_bodies_ = 0; ///< of what stands in them nobody knows whether it belongs there
     int searches_left_ = 100;
     StackGuard stack_;
 };

@@ -31,6 +31,7 @@ struct BodyCode {
 
 namespace code {
 
+struct Failed {}; ///< stands where something was reported; gives an ErrorValue
 struct Constant {
     Value value;
 };
@@ -93,8 +94,10 @@ struct Index {
 struct Construct {
     const Constructor* constructor;
     BodyCode body;
-    std::string_view name; ///< the thing's
-    Span name_span;        ///< of the constructor's name
+    std::string_view name;              ///< the thing's
+    Span name_span;                     ///< of the constructor's name
+    std::vector<const Field*> required; ///< those that the text sets, in a branch maybe
+    bool is_sound;                      ///< nothing was reported of its fields and items
 };
 
 } // namespace code
@@ -128,9 +131,10 @@ struct ItemCode {
 };
 
 struct Code {
-    std::variant<code::Constant, code::Variable, code::FunctionValue, code::Unary, code::Binary, code::Tuple,
-                 code::List, code::Comprehension, code::Conditional, code::Component, code::SurfaceInput,
-                 code::BuiltinCall, code::ListCall, code::Call, code::Index, code::Construct>
+    std::variant<code::Failed, code::Constant, code::Variable, code::FunctionValue, code::Unary, code::Binary,
+                 code::Tuple, code::List, code::Comprehension, code::Conditional, code::Component,
+                 code::SurfaceInput, code::BuiltinCall, code::ListCall, code::Call, code::Index,
+                 code::Construct>
         node;
     Span span;
 };

@@ -48,6 +48,11 @@ bool continues_item(TokenKind kind) {
            kind == TokenKind::kw_else;
 }
 
+bool defines_next(TokenKind kind) {
+    return kind == TokenKind::kw_let || kind == TokenKind::kw_fn || kind == TokenKind::kw_param ||
+           kind == TokenKind::kw_as;
+}
+
 } // namespace
 
 bool Cursor::line_ends_before(std::uint32_t index) const {
@@ -150,6 +155,7 @@ void Cursor::skip() {
 
 void Cursor::recover(std::uint32_t start) {
     panic_ = false;
+    const std::uint32_t first = pos_;
     if (pos_ == start && pos_ < limit_) {
         skip();
     }
@@ -157,13 +163,28 @@ void Cursor::recover(std::uint32_t start) {
            tokens_[pos_].kind != TokenKind::semicolon) {
         skip();
     }
+    lost_.push_back({first, pos_, false});
     update();
 }
 
+std::unordered_set<std::string> Cursor::lost_names() const {
+    std::unordered_set<std::string> names;
+    for (const Lost& lost : lost_) {
+        for (std::uint32_t i = lost.begin; i < lost.end; ++i) {
+            const bool counts = !lost.only_definitions || (i > 0 && defines_next(tokens_[i - 1].kind));
+            if (counts && tokens_[i].kind == TokenKind::name) {
+                names.emplace(text(tokens_[i].span));
+            }
+        }
+    }
+    return names;
+}
+
 Group::Group(Cursor& cursor)
-    : cursor_(cursor), opener_(cursor.token().span), partner_(cursor.partner_[cursor.pos_]),
-      outer_limit_(cursor.limit_), outer_lines_end_items_(cursor.lines_end_items_),
-      outer_muted_(cursor.muted_), is_brace_(cursor.at(TokenKind::left_brace)) {
+    : cursor_(cursor), opener_(cursor.token().span), begin_(cursor.pos_),
+      partner_(cursor.partner_[cursor.pos_]), outer_limit_(cursor.limit_),
+      outer_lines_end_items_(cursor.lines_end_items_), outer_muted_(cursor.muted_),
+      is_brace_(cursor.at(TokenKind::left_brace)) {
     const bool paired = partner_ != no_partner;
     const bool mispaired =
         paired && static_cast<int>(cursor.tokens_[partner_].kind) != static_cast<int>(cursor.kind()) + 1;
@@ -174,12 +195,19 @@ Group::Group(Cursor& cursor)
     cursor_.advance();
 }
 
+bool Group::is_paired() const {
+    return partner_ != no_partner;
+}
+
 Span Group::finish(std::string_view expected) {
     const bool paired = partner_ != no_partner;
     if (paired && !cursor_.panic_ && cursor_.pos_ != partner_) {
         cursor_.fail(expected);
     }
     failed_ = failed_ || cursor_.panic_;
+    if (failed_) {
+        cursor_.lost_.push_back({begin_, paired ? partner_ : cursor_.pos_, is_brace_});
+    }
     cursor_.limit_ = outer_limit_;
     cursor_.lines_end_items_ = outer_lines_end_items_;
     cursor_.muted_ = outer_muted_;

@@ -11,6 +11,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_set>
+#include <utility>
 #include <vector>
 
 namespace scc::lang {
@@ -88,6 +90,8 @@ public:
     /// Ends a panic: skips to the next separator in the current brackets, but at least one token from
     /// `start`.
     void recover(std::uint32_t start);
+    /// The names in text that was skipped, and those defined in braces that cannot be trusted.
+    std::unordered_set<std::string> lost_names() const;
 
     /// One more operator in a chain, which makes the tree one higher. False if it is one too many; what was
     /// built of the chain is then dropped, for the height is counted anew.
@@ -108,6 +112,11 @@ private:
     }
     void update() { kind_ = panic_ ? TokenKind::end_of_file : effective_kind(pos_); }
     void skip();
+    /// Text that is not in the tree, or of which only single items are.
+    struct Lost {
+        std::uint32_t begin, end; ///< tokens
+        bool only_definitions;
+    };
     bool is_consequence() const;
     void report_too_deep();
 
@@ -122,6 +131,7 @@ private:
     bool panic_ = false;
     bool muted_ = false; ///< inside a bracket that was reported, where every line looks wrong
     bool too_deep_reported_ = false;
+    std::vector<Lost> lost_;
     int depth_ = 0;
     int height_ = 0; ///< an upper bound for the tree built in the current Height
 };
@@ -137,10 +147,12 @@ public:
     Span finish(std::string_view expected);
     /// After finish(): the inside is not to be trusted.
     bool failed() const { return failed_; }
+    bool is_paired() const;
 
 private:
     Cursor& cursor_;
     Span opener_;
+    std::uint32_t begin_;
     std::uint32_t partner_;
     std::uint32_t outer_limit_;
     bool outer_lines_end_items_, outer_muted_;

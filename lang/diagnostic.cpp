@@ -21,11 +21,21 @@ const DiagnosticRow& row(Diag kind) {
     return diagnostic_rows()[static_cast<std::size_t>(kind)];
 }
 
-Diagnostic& Diagnostics::add(Diag kind, Span span, std::string message) {
-    const Severity severity = row(kind).severity;
-    errors_ += severity == Severity::error ? 1 : 0;
-    all_.push_back({kind, severity, span, std::move(message), {}, {}});
+Diagnostic& Diagnostics::make(Diag kind, Span span, std::string message) {
+    add({kind, row(kind).severity, span, std::move(message), {}, {}});
     return all_.back();
+}
+
+void Diagnostics::add(Diagnostic diagnostic) {
+    errors_ += diagnostic.severity == Severity::error ? 1 : 0;
+    all_.push_back(std::move(diagnostic));
+}
+
+bool Diagnostics::has_errors_within(Span span) const {
+    return std::any_of(all_.begin(), all_.end(), [span](const Diagnostic& d) {
+        return d.severity == Severity::error && d.span.file == span.file && d.span.begin >= span.begin &&
+               d.span.end <= span.end;
+    });
 }
 
 std::size_t Diagnostics::warning_count() const {

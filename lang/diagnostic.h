@@ -69,11 +69,14 @@ public:
     /// until the next report.
     template <class... Args>
     Diagnostic& report(Diag kind, Span span, const Args&... args) {
-        return add(kind, span, fmt::format(fmt::runtime(row(kind).message), args...));
+        return make(kind, span, fmt::format(fmt::runtime(row(kind).message), args...));
     }
+
+    void add(Diagnostic diagnostic);
 
     bool has_errors() const { return errors_ > 0; }
     std::size_t error_count() const { return errors_; }
+    bool has_errors_within(Span span) const;
     std::size_t warning_count() const;
     /// `--strict`: every warning becomes an error.
     void promote_warnings();
@@ -82,7 +85,7 @@ public:
     std::vector<Diagnostic> sorted() const;
 
 private:
-    Diagnostic& add(Diag kind, Span span, std::string message);
+    Diagnostic& make(Diag kind, Span span, std::string message);
 
     std::vector<Diagnostic> all_;
     std::size_t errors_ = 0;

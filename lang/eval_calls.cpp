@@ -131,13 +131,20 @@ Value Evaluator::call(const FunctionCode& function, const FramePtr& frame, std::
         stopped_ = true;
         return failed();
     }
-    const FramePtr inner = std::make_shared<Frame>(frame, function.cells, frame->captured);
+    const bool is_written = !tracing() || !calls_.empty(); // else the renderer calls it, per point
+    if (is_written) {
+        report_.enter_call(span, function.name);
+    }
+    const FramePtr inner = make_frame(frame, function.cells);
     for (std::size_t i = 0; i < arguments.size(); ++i) {
         inner->set(i, std::move(arguments[i]));
     }
     calls_.push_back({&function, unknown_conditions_});
     Value result = eval(*function.result, inner);
     calls_.pop_back();
+    if (is_written) {
+        report_.leave();
+    }
     return result;
 }
 

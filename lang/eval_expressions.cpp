@@ -58,11 +58,19 @@ Value Evaluator::eval(const Code& code, const FramePtr& frame) {
     return std::visit([&](const auto& node) { return run(node, code.span, frame); }, code.node);
 }
 
+/// A value that needs itself finds an ErrorValue, which the checker has explained.
 Value Evaluator::cell(const FramePtr& frame, std::uint32_t index) {
     if (!frame->cells[index].ready) {
+        frame->set(index, failed());
+        report_.enter_definition(frame->depth);
         frame->set(index, eval(*(*frame->code)[index], frame));
+        report_.leave();
     }
     return frame->cells[index].value;
+}
+
+Value Evaluator::run(const code::Failed&, Span, const FramePtr&) {
+    return failed();
 }
 
 Value Evaluator::run(const code::Constant& node, Span, const FramePtr&) {
@@ -177,12 +185,12 @@ Value Evaluator::run(const code::Comprehension& node, Span span, const FramePtr&
             return;
         }
         current = value;
-        const FramePtr inner = std::make_shared<Frame>(frame, node.cells, frame->captured);
+        const FramePtr inner = make_frame(frame, node.cells);
         inner->set(0, value);
         list->push_back(eval(*node.element, inner));
         complete = complete && !is_error(list->back());
     });
-    report_.leave_loop();
+    report_.leave();
     return complete && !stopped_ ? Value{ListPtr(std::move(list))} : failed();
 }
 

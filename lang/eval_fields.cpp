@@ -57,45 +57,71 @@ std::string rule_of(const Field& field) {
 
 } // namespace
 
-void Evaluator::check_field(const Field& field, const Value& value, Span span) {
+bool Evaluator::check_field(const Field& field, const Value& value, const Code& code) {
     if (const auto* text = std::get_if<std::string>(&value.v)) {
         const auto& choices = field.choices;
         if (!choices.empty() && std::find(choices.begin(), choices.end(), *text) == choices.end()) {
-            report_.report(Diag::unknown_choice, span, field.name, to_string(value), choice_rule(field));
+            report_.report(Diag::unknown_choice, code.span, field.name, to_string(value), choice_rule(field));
+            return false;
         }
-    } else if (const auto* list = std::get_if<ListPtr>(&value.v)) {
-        for (std::size_t i = 0; i < (*list)->size() && step(span); ++i) {
-            check_field(field, (**list)[i], span);
-        }
-    } else if (const auto* transform = std::get_if<TransformValue>(&value.v)) {
-        check_transform(*transform, span);
-    } else {
-        check_number(field, value, span);
+        return true;
     }
+    if (const auto* list = std::get_if<ListPtr>(&value.v)) {
+        const auto* written = std::get_if<code::List>(&code.node);
+        bool fine = true;
+        for (std::size_t i = 0; i < (*list)->size() && step(code.span); ++i) {
+            fine = check_field(field, (**list)[i], written ? *written->elements[i] : code) && fine;
+        }
+        return fine;
+    }
+    if (const auto* transform = std::get_if<TransformValue>(&value.v)) {
+        return check_transform(*transform, code.span);
+    }
+    return check_number(field, value, code);
 }
 
-void Evaluator::check_number(const Field& field, const Value& value, Span span) {
+bool Evaluator::check_number(const Field& field, const Value& value, const Code& code) {
     const Components parts = components(value);
     if (parts.count == 0 || parts.kind == TypeKind::boolean) {
-        return;
+        return true;
     }
-    const bool finite = std::all_of(parts.v.begin(), parts.v.begin() + parts.count,
-                                    [](const Scalar& s) { return std::isfinite(s.value); });
-    if (!finite) {
-        report_.report(Diag::not_finite, span, field.name, to_string(value));
-    } else if (!within(field.limits, parts)) {
-        report_.report(Diag::value_out_of_range, span, field.name, to_string(value), rule_of(field));
+    // Of a vector that is written out, the first component that is wrong.
+    const auto* written = std::get_if<code::Tuple>(&code.node);
+    const auto place = [&](const auto& is_fine) {
+        for (std::size_t i = 0; written && i < parts.count; ++i) {
+            if (!is_fine(parts.v[i].value)) {
+                return written->elements[i]->span;
+            }
+        }
+        return code.span;
+    };
+    const auto finite = [](double component) { return std::isfinite(component); };
+    const bool is_finite = std::all_of(parts.v.begin(), parts.v.begin() + parts.count,
+                                       [&](const Scalar& s) { return finite(s.value); });
+    if (!is_finite) {
+        report_.report(Diag::not_finite, place(finite), field.name, to_string(value));
+        return false;
     }
+    if (!within(field.limits, parts)) {
+        const auto fits_in = [&](double component) { return component_within(field.limits, component); };
+        report_.report(Diag::value_out_of_range, place(fits_in), field.name, to_string(value),
+                       rule_of(field));
+        return false;
+    }
+    return true;
 }
 
 /// `scale` and `matrix` report what they flatten themselves; joined with `then`, harmless transforms can do
 /// so too.
-void Evaluator::check_transform(const TransformValue& transform, Span span) {
+bool Evaluator::check_transform(const TransformValue& transform, Span span) {
     if (!inverse(transform)) {
         report_.report(Diag::no_inverse, span, "");
-    } else if (const double stretch = condition(transform); stretch > worst_condition) {
+        return false;
+    }
+    if (const double stretch = condition(transform); stretch > worst_condition) {
         report_.report(Diag::ill_conditioned_transform, span, std::lround(std::log10(stretch)));
     }
+    return true;
 }
 
 } // namespace scc::lang

@@ -2,6 +2,7 @@
 #include "lang/wording.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace scc::lang {
 namespace {
@@ -17,7 +18,8 @@ std::uint32_t height_of(const Value& value) {
 
 std::vector<ThingPtr> Evaluator::run(const BodyCode& file, const FramePtr& globals) {
     std::vector<ThingPtr> things;
-    items(file.items, globals, {nullptr, &things});
+    bool is_sound = true;
+    items(file.items, globals, {nullptr, &things, &is_sound});
     return things;
 }
 
@@ -30,10 +32,14 @@ Value Evaluator::run(const code::Construct& node, Span span, const FramePtr& fra
     thing->constructor = node.constructor;
     thing->name = node.name;
     thing->span = span;
-    body(node.body, frame, {&thing->fields, &thing->children});
-    for (const Field& field : node.constructor->fields) {
-        if (field.required && !report_.failed() && !thing->find(field.name)) {
-            report_.report(Diag::missing_field, node.name_span, in_code(node.constructor->name), field.name);
+    bool is_sound = node.is_sound;
+    report_.enter_thing(thing.get(), std::exchange(siblings_, nullptr));
+    body(node.body, frame, {&thing->fields, &thing->children, &is_sound});
+    report_.leave();
+    for (const Field* field : node.required) {
+        if (is_sound && !thing->find(field->name)) {
+            report_.report(Diag::missing_field, node.name_span, in_code(node.constructor->name), field->name);
+            is_sound = false;
         }
     }
     for (const ThingPtr& child : thing->children) {
@@ -45,12 +51,12 @@ Value Evaluator::run(const code::Construct& node, Span span, const FramePtr& fra
     if (thing->height > highest_thing) {
         stop(Diag::too_deep, node.name_span, 0);
     }
-    return stopped_ ? failed() : Value{ThingPtr(std::move(thing))};
+    return stopped_ || !is_sound ? failed() : Value{ThingPtr(std::move(thing))};
 }
 
 void Evaluator::body(const BodyCode& body, const FramePtr& frame, const Target& target) {
     if (body.has_frame) {
-        items(body.items, std::make_shared<Frame>(frame, body.cells, frame->captured), target);
+        items(body.items, make_frame(frame, body.cells), target);
     } else {
         items(body.items, frame, target);
     }
@@ -64,14 +70,18 @@ void Evaluator::items(const std::vector<ItemCode>& items, const FramePtr& frame,
 
 void Evaluator::item(const FieldCode& item, const FramePtr& frame, const Target& target) {
     Value value = eval(*item.value, frame);
-    if (!std::holds_alternative<ErrorValue>(value.v)) {
-        check_field(*item.field, value, item.value->span);
-        target.fields->push_back({item.field->name, std::move(value), item.name_span, item.value->span});
+    if (std::holds_alternative<ErrorValue>(value.v) || !check_field(*item.field, value, *item.value)) {
+        *target.is_sound = false;
+        return;
     }
+    target.fields->push_back({item.field->name, std::move(value), item.name_span, item.value->span});
 }
 
 void Evaluator::item(const ChildCode& item, const FramePtr& frame, const Target& target) {
-    add_child(eval(*item.value, frame), item.value->span, target);
+    const auto* outer = std::exchange(siblings_, target.children);
+    const Value value = eval(*item.value, frame);
+    siblings_ = outer;
+    add_child(value, item.value->span, target);
 }
 
 /// A list stands for its elements.
@@ -91,13 +101,14 @@ void Evaluator::add_child(const Value& value, Span span, const Target& target) {
 
 void Evaluator::item(const ForCode& item, const FramePtr& frame, const Target& target) {
     const Value range = eval(*item.range, frame);
+    *target.is_sound = *target.is_sound && !std::holds_alternative<ErrorValue>(range.v);
     Value current;
     report_.enter_loop(item.span, item.variable, &current);
     FramePtr inner;
     iterate(range, item.range->span, [&](const Value& value) {
         current = value;
         if (!inner || inner.use_count() > 1) { // kept by a function value of an earlier round
-            inner = std::make_shared<Frame>(frame, item.body.cells, frame->captured);
+            inner = make_frame(frame, item.body.cells);
         }
         for (Frame::Cell& cell : inner->cells) {
             cell.ready = false;
@@ -105,13 +116,15 @@ void Evaluator::item(const ForCode& item, const FramePtr& frame, const Target& t
         inner->set(0, value);
         items(item.body.items, inner, target);
     });
-    report_.leave_loop();
+    report_.leave();
 }
 
 void Evaluator::item(const IfCode& item, const FramePtr& frame, const Target& target) {
     const Value condition = eval(*item.condition, frame);
     if (const auto* truth = std::get_if<BoolValue>(&condition.v)) {
         body(truth->v.value != 0 ? item.yes : item.no, frame, target);
+    } else {
+        *target.is_sound = false;
     }
 }
 

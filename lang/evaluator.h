@@ -36,6 +36,7 @@ private:
     struct Target {
         std::vector<FieldValue>* fields;
         std::vector<ThingPtr>* children;
+        bool* is_sound; ///< becomes false where a field or condition of it fails
     };
 
     Value eval(const Code& code, const FramePtr& frame);
@@ -43,10 +44,14 @@ private:
     bool step(Span span);
     void stop(Diag kind, Span span, std::uint64_t limit);
     Value failed() { return {ErrorValue{}}; }
+    FramePtr make_frame(const FramePtr& outer, const std::vector<CodePtr>& cells) {
+        return std::make_shared<Frame>(outer, cells, outer->captured, report_.depth());
+    }
     bool tracing() const { return math_.builder() != nullptr; }
     Value depends_on_surface(Span span, std::string_view what, std::string_view rule);
 
     // eval_expressions.cpp
+    Value run(const code::Failed& node, Span span, const FramePtr& frame);
     Value run(const code::Constant& node, Span span, const FramePtr& frame);
     Value run(const code::Variable& node, Span span, const FramePtr& frame);
     Value run(const code::FunctionValue& node, Span span, const FramePtr& frame);
@@ -88,10 +93,10 @@ private:
     template <class Each>
     void iterate(const Value& range, Span span, const Each& each);
 
-    // eval_fields.cpp
-    void check_field(const Field& field, const Value& value, Span span);
-    void check_number(const Field& field, const Value& value, Span span);
-    void check_transform(const TransformValue& transform, Span span);
+    // eval_fields.cpp: false if something was reported that makes the value unusable
+    bool check_field(const Field& field, const Value& value, const Code& code);
+    bool check_number(const Field& field, const Value& value, const Code& code);
+    bool check_transform(const TransformValue& transform, Span span);
 
     struct Activation {
         const FunctionCode* function;
@@ -108,6 +113,7 @@ private:
     bool stopped_ = false;
     std::uint32_t unknown_conditions_ = 0; ///< around what is being evaluated
     std::vector<Activation> calls_;
+    const std::vector<ThingPtr>* siblings_ = nullptr; ///< of a thing that is built now
     std::vector<std::string> prints_;
 };
 

@@ -37,10 +37,13 @@ struct Frame {
     const std::vector<CodePtr>* code;
     CapturedFrames* captured;
     std::vector<Cell> cells;
+    std::size_t depth; ///< of RunReport, where it was made
     bool is_captured = false;
 
-    Frame(FramePtr outer, const std::vector<CodePtr>& cell_code, CapturedFrames* captured_frames)
-        : parent(std::move(outer)), code(&cell_code), captured(captured_frames), cells(cell_code.size()) {}
+    Frame(FramePtr outer, const std::vector<CodePtr>& cell_code, CapturedFrames* captured_frames,
+          std::size_t report_depth)
+        : parent(std::move(outer)), code(&cell_code), captured(captured_frames), cells(cell_code.size()),
+          depth(report_depth) {}
 
     void set(std::size_t cell, Value value) {
         cells[cell].value = std::move(value);

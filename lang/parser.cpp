@@ -9,7 +9,9 @@ ast::File Parser::file() {
     ast::File file;
     file.file = file_;
     file.language = language();
-    file.items = items();
+    bool has_gaps = false;
+    file.items = items(has_gaps);
+    file.lost_names = lost_names();
     return file;
 }
 
@@ -34,13 +36,13 @@ std::optional<double> Parser::language() {
     return version;
 }
 
-std::vector<ast::Item> Parser::items() {
+std::vector<ast::Item> Parser::items(bool& has_gaps) {
     std::vector<ast::Item> result;
     skip_line_end();
     while (!at_limit()) {
         const std::uint32_t start = position();
         item(result);
-        end_item(start);
+        has_gaps = end_item(start) || has_gaps;
     }
     return result;
 }
@@ -78,8 +80,30 @@ void Parser::item(std::vector<ast::Item>& items) {
     default:
         break;
     }
+    child(items);
+}
+
+/// Text right behind a bare name makes it unlikely that the name is a value: `radius 3`, `lte a = 3`.
+void Parser::child(std::vector<ast::Item>& items) {
+    const Span first = token().span;
     ast::ExprPtr value = expr();
-    add(ast::Child{std::move(value)});
+    const auto* word = std::get_if<ast::NameRef>(&value->node);
+    if (word && !panicking() && !at_limit() && !at_separator()) {
+        if (takes_fields_ && begins_operand()) {
+            return field_without_sign(items, {word->name, value->span});
+        }
+        value->node = ast::ErrorExpr{};
+    }
+    items.push_back({ast::Child{std::move(value)}, span_from(first)});
+}
+
+void Parser::field_without_sign(std::vector<ast::Item>& items, ast::Name field_name) {
+    const Span gap{file_, field_name.span.end, field_name.span.end};
+    complain(Fix{gap, " ="}, Diag::field_assignment, token().span, shortened(text(token().span)),
+             shortened(field_name.text));
+    ast::ExprPtr value = expr();
+    const Span span = span_from(field_name.span);
+    items.push_back({ast::Field{std::move(field_name), std::move(value)}, span});
 }
 
 ast::Import Parser::import() {
@@ -103,8 +127,7 @@ ast::Param Parser::param() {
     advance();
     ast::Param result;
     result.name = name("the name of a param");
-    expect(TokenKind::colon);
-    result.type = type();
+    result.type = type_after_colon();
     result.default_value = expr_after(TokenKind::assign);
     if (accept(TokenKind::kw_in)) {
         result.range = expr();
@@ -133,7 +156,7 @@ ast::Function Parser::func() {
     advance();
     ast::Function result;
     result.name = name("the name of a function");
-    result.formals = formals();
+    result.has_gaps = !formals(result.formals);
     if (accept(TokenKind::arrow)) {
         result.result = type();
     }
@@ -141,23 +164,22 @@ ast::Function Parser::func() {
     return result;
 }
 
-std::vector<ast::Formal> Parser::formals() {
-    std::vector<ast::Formal> result;
+/// False if they could not be read.
+bool Parser::formals(std::vector<ast::Formal>& formals) {
     if (!at(TokenKind::left_paren)) {
         fail("`(`");
-        return result;
+        return false;
     }
     Group parens(*this);
-    comma_separated(TokenKind::right_paren, [&] { result.push_back(formal()); });
+    comma_separated(TokenKind::right_paren, [&] { formals.push_back(formal()); });
     parens.finish("`,` or `)`");
-    return result;
+    return !parens.failed();
 }
 
 ast::Formal Parser::formal() {
     ast::Formal result;
     result.name = name("the name of a parameter");
-    expect(TokenKind::colon);
-    result.type = type();
+    result.type = type_after_colon();
     if (accept(TokenKind::assign)) {
         result.default_value = expr();
     }
@@ -281,8 +303,9 @@ ast::Body Parser::body(bool takes_fields) {
     const bool outer = std::exchange(takes_fields_, takes_fields);
     Group braces(*this);
     ast::Body result;
-    result.items = items();
+    result.items = items(result.has_gaps);
     result.span = braces.finish("`}`");
+    result.is_open = !braces.is_paired();
     takes_fields_ = outer;
     return result;
 }
@@ -297,18 +320,20 @@ void Parser::pass_brace_on_new_line() {
     skip_line_end();
 }
 
-/// Passes the separator after an item, or what stands in its place.
-void Parser::end_item(std::uint32_t start) {
+/// Passes the separator after an item, or what stands in its place. True if text was skipped.
+bool Parser::end_item(std::uint32_t start) {
     if (!panicking() && !at_limit() && !at_separator()) {
         juxtaposed();
     }
-    if (panicking()) {
+    const bool skips = panicking();
+    if (skips) {
         recover(start);
     }
     if (!accept(TokenKind::comma)) {
         accept(TokenKind::semicolon);
     }
     skip_line_end();
+    return skips;
 }
 
 /// Two items on one line. What is surely an item is read as one, other text would only lead to more messages.
@@ -340,12 +365,27 @@ bool Parser::begins_item() const {
     }
 }
 
+/// At what can only be the value of something.
+bool Parser::begins_operand() const {
+    switch (kind()) {
+    case TokenKind::name:
+    case TokenKind::number:
+    case TokenKind::string:
+    case TokenKind::hex_color:
+    case TokenKind::kw_true:
+    case TokenKind::kw_false:
+        return !begins_field();
+    default:
+        return false;
+    }
+}
+
 bool Parser::begins_field() const {
     const bool is_word = kind() >= TokenKind::kw_language && kind() <= TokenKind::kw_false;
     const TokenKind next = peek();
     return (at(TokenKind::name) &&
             (next == TokenKind::assign || next == TokenKind::colon || next == TokenKind::equal)) ||
-           (is_word && next == TokenKind::assign);
+           (is_word && takes_fields_ && next == TokenKind::assign);
 }
 
 ast::File parse(const SourceSet& sources, FileId file, const std::vector<Token>& tokens,

@@ -318,10 +318,11 @@ ast::ExprPtr Parser::choice(Span first, ast::ExprPtr condition) {
 ast::ExprPtr Parser::lambda() {
     const Span first = token().span;
     advance();
-    std::vector<ast::Formal> parameters = formals();
+    std::vector<ast::Formal> parameters;
+    const bool is_complete = formals(parameters);
     ast::ExprPtr result = expr_after(TokenKind::assign);
     const Span span = join(first, result->span);
-    return make(ast::Lambda{std::move(parameters), std::move(result)}, span);
+    return !is_complete ? error(span) : make(ast::Lambda{std::move(parameters), std::move(result)}, span);
 }
 
 ast::TypeExprPtr Parser::type() {
@@ -361,6 +362,30 @@ ast::TypeExprPtr Parser::function_type() {
     ast::TypeExprPtr result = type();
     return std::make_unique<ast::TypeExpr>(
         ast::TypeExpr{ast::FunctionType{std::move(parameters), std::move(result)}, span_from(first)});
+}
+
+/// A missing `=` before what can only be a value is added.
+ast::ExprPtr Parser::expr_after(TokenKind kind) {
+    if (kind == TokenKind::assign && begins_operand()) {
+        complain_of_missing(kind, " =");
+        return expr();
+    }
+    return expect(kind) ? expr() : error();
+}
+
+ast::TypeExprPtr Parser::type_after_colon() {
+    if (at(TokenKind::name)) {
+        complain_of_missing(TokenKind::colon, ":");
+    } else {
+        expect(TokenKind::colon);
+    }
+    return type();
+}
+
+void Parser::complain_of_missing(TokenKind kind, std::string_view addition) {
+    const Span gap{file_, previous().span.end, previous().span.end};
+    complain(Fix{gap, std::string(addition)}, Diag::unexpected_token, token().span, description(),
+             fmt::format("`{}`", spelling(kind)));
 }
 
 /// A reserved word is reported and taken for the name; otherwise what is missing leaves an empty one.

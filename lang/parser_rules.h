@@ -21,13 +21,13 @@ public:
 private:
     // parser.cpp: items
     std::optional<double> language();
-    std::vector<ast::Item> items();
+    std::vector<ast::Item> items(bool& has_gaps);
     void item(std::vector<ast::Item>& items);
     ast::Import import();
     ast::Param param();
     ast::Let let();
     ast::Function func();
-    std::vector<ast::Formal> formals();
+    bool formals(std::vector<ast::Formal>& formals);
     ast::Formal formal();
     ast::FunctionBody function_body();
     ast::FunctionBody block();
@@ -36,12 +36,15 @@ private:
     ast::If cond_with_body(ast::ExprPtr condition);
     ast::Item otherwise();
     void field(std::vector<ast::Item>& items);
+    void child(std::vector<ast::Item>& items);
+    void field_without_sign(std::vector<ast::Item>& items, ast::Name field_name);
     ast::Body body(bool takes_fields);
 
-    void end_item(std::uint32_t start);
+    bool end_item(std::uint32_t start);
     void juxtaposed();
     bool begins_item() const;
     bool begins_field() const;
+    bool begins_operand() const;
     bool at_body() const { return at(TokenKind::left_brace) || at_brace_on_new_line(); }
     void pass_brace_on_new_line();
 
@@ -73,7 +76,9 @@ private:
     ast::Name name(std::string_view what);
     std::pair<ast::Name, ast::ExprPtr> variable_in_range();
     ast::ExprPtr parenthesised_condition();
-    ast::ExprPtr expr_after(TokenKind kind) { return expect(kind) ? expr() : error(); }
+    ast::ExprPtr expr_after(TokenKind kind);
+    ast::TypeExprPtr type_after_colon();
+    void complain_of_missing(TokenKind kind, std::string_view addition);
     ast::ExprPtr error() const { return error(place()); }
     ast::ExprPtr error(Span span) const { return make(ast::ErrorExpr{}, span); }
 

@@ -20,11 +20,17 @@ Binding& Names::bind(Scope& scope, Binding::Kind kind, std::string_view name, Sp
         binding.cell = static_cast<std::uint32_t>(scope.cells.size());
         scope.cells.push_back(&binding);
     }
+    if (name.empty()) { // could not be read
+        binding.used = true;
+        return binding;
+    }
     const auto [first, inserted] = scope.names.try_emplace(name, &binding);
     if (!inserted) {
         diagnostics_.report(Diag::duplicate_name, span, name)
             .note(first->second->span, "the first one is here");
         binding.used = true;
+        first->second->used = true;
+        first->second->is_spoilt = true;
     }
     return binding;
 }
@@ -74,17 +80,17 @@ void Names::note_use(Binding& target, Span span, Binding* user) {
     }
 }
 
-void Names::warn_unused() {
-    for (const Binding& binding : bindings_) {
-        if (binding.used || binding.name.starts_with('_')) {
-            continue;
-        }
-        if (binding.kind == Binding::Kind::let) {
-            diagnostics_.report(Diag::unused_let, binding.span, binding.name);
-        } else if (binding.kind == Binding::Kind::param) {
-            diagnostics_.report(Diag::unused_param, binding.span, binding.name);
+Span Names::definition_span(const Binding& binding) {
+    if (binding.let) {
+        return binding.let->span;
+    }
+    Span span = binding.span;
+    if (binding.param) {
+        for (const ast::Expr* part : {binding.param->default_value.get(), binding.param->range.get()}) {
+            span = part ? join(span, part->span) : span;
         }
     }
+    return span;
 }
 
 } // namespace scc::lang

@@ -39,6 +39,7 @@ struct Binding {
     bool type_known = false;
     bool used = false;
     bool needs_result_type = false; ///< a function that was called before its result was known
+    bool is_spoilt = false;         ///< its definition was reported; what it means is not known
     std::uint32_t cell = 0;         ///< of the scope's frame; functions have none
     CodePtr code;                   ///< what the cell is computed from
     FunctionCode* function_code = nullptr;
@@ -71,17 +72,35 @@ public:
     /// Remembers that the definition `user` (null: the file's items) mentions `target`.
     static void note_use(Binding& target, Span span, Binding* user);
 
-    void warn_unused();
+    /// Nothing is said of names for which `maybe_used` holds, or whose definition is wrong.
+    template <class MaybeUsed>
+    void warn_unused(const MaybeUsed& maybe_used);
     /// Reports every let or param whose value needs itself, by way of functions too, and functions whose
     /// result type cannot be found because they call themselves.
     void report_cycles();
 
 private:
+    static Span definition_span(const Binding& binding);
     void report_cycle(Binding* first, const std::vector<Binding*>& members);
 
     std::deque<Scope> scopes_;
     std::deque<Binding> bindings_;
     Diagnostics& diagnostics_;
 };
+
+template <class MaybeUsed>
+void Names::warn_unused(const MaybeUsed& maybe_used) {
+    for (const Binding& binding : bindings_) {
+        const bool is_silent = binding.used || binding.name.starts_with('_') || maybe_used(binding.name);
+        if (is_silent || diagnostics_.has_errors_within(definition_span(binding))) {
+            continue;
+        }
+        if (binding.kind == Binding::Kind::let) {
+            diagnostics_.report(Diag::unused_let, binding.span, binding.name);
+        } else if (binding.kind == Binding::Kind::param) {
+            diagnostics_.report(Diag::unused_param, binding.span, binding.name);
+        }
+    }
+}
 
 } // namespace scc::lang

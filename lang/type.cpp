@@ -77,6 +77,17 @@ bool fits(const Type& wanted, const Type& actual) {
     return true;
 }
 
+Type joined(const Type& a, const Type& b) {
+    if (a.kind == TypeKind::error) {
+        return b;
+    }
+    Type result = a;
+    for (std::size_t i = 0; i < a.args.size() && b.kind == a.kind; ++i) {
+        result.args[i] = joined(a.args[i], b.args[i]);
+    }
+    return result;
+}
+
 const TypeKind* named_type(std::string_view name) {
     for (const NamedKind& row : named_kinds) {
         if (row.name == name) {

@@ -54,6 +54,9 @@ std::string described(const Type& type);
 
 /// Whether a value of type `actual` may stand where `wanted` is expected; the error type fits everywhere.
 bool fits(const Type& wanted, const Type& actual);
+/// Of two types that fit each other: what is unknown in one, as the elements of `[]`, is taken from the
+/// other.
+Type joined(const Type& a, const Type& b);
 /// The type with this name, if it is one word.
 const TypeKind* named_type(std::string_view name);
 std::vector<std::string_view> type_names();

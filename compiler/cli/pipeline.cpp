@@ -74,6 +74,18 @@ compiler::LowerOptions lower_options(const SceneOptions& options,
     return result;
 }
 
+// Of a scene that has mistakes, what has none is lowered for the mistakes that only show there. What depends
+// on the scene as a whole is not to be trusted: a camera or a light may be among what is left out.
+void lower_the_rest(Loaded& loaded, const compiler::LowerOptions& options) {
+    lang::Diagnostics found;
+    compiler::lower(loaded.module, options, found);
+    for (const lang::Diagnostic& diagnostic : found.sorted()) {
+        if (diagnostic.severity != lang::Severity::note && diagnostic.kind != lang::Diag::unknown_camera) {
+            loaded.diagnostics.add(diagnostic);
+        }
+    }
+}
+
 // Runs one stage and notes how long it took.
 template <class Run>
 void timed(Loaded& loaded, const char* stage, Run run) {
@@ -96,19 +108,23 @@ Loaded load(const SceneOptions& options, Stage last) {
                 lang::parse(loaded.sources, file, loaded.tokens, loaded.diagnostics));
         }
     });
-    if (last < Stage::module || loaded.diagnostics.has_errors()) {
+    if (last < Stage::module) {
         return loaded;
     }
     timed(loaded, "check", [&] {
         loaded.module = lang::check(loaded.tree, compiler::scene_schema(), definitions, loaded.sources,
                                     loaded.diagnostics);
     });
-    if (last < Stage::scene || loaded.diagnostics.has_errors()) {
+    if (last < Stage::scene) {
         return loaded;
     }
     timed(loaded, "lower", [&] {
-        loaded.scene =
-            compiler::lower(loaded.module, lower_options(options, definitions), loaded.diagnostics);
+        const compiler::LowerOptions lowering = lower_options(options, definitions);
+        if (loaded.diagnostics.has_errors()) {
+            lower_the_rest(loaded, lowering);
+        } else {
+            loaded.scene = compiler::lower(loaded.module, lowering, loaded.diagnostics);
+        }
     });
     if (!loaded.diagnostics.has_errors()) {
         timed(loaded, "passes", [&] { compiler::run_passes(loaded.scene); });
@@ -120,13 +136,15 @@ bool report(const Loaded& loaded) {
     const char* no_color = std::getenv("NO_COLOR");
     const bool color = isatty(STDERR_FILENO) != 0 && (no_color == nullptr || *no_color == '\0');
     std::string text;
+    std::size_t errors = 0;
     for (const lang::Diagnostic& diagnostic : loaded.diagnostics.sorted()) {
         text += lang::render_text(loaded.sources, diagnostic, color);
+        errors += diagnostic.severity == lang::Severity::error ? 1 : 0;
     }
     for (const std::string& print : loaded.module.prints) {
         text += print + "\n";
     }
-    if (const std::size_t errors = loaded.diagnostics.error_count(); errors > 0) {
+    if (errors > 0) {
         text += fmt::format("{} error{}\n", errors, errors == 1 ? "" : "s");
     }
     fmt::print(stderr, "{}", text);

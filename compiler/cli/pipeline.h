@@ -38,8 +38,8 @@ enum class Stage { tokens, tree, module, scene };
 /// A file that the command line names. Throws host::FileError.
 std::string read_text_file(const std::string& path);
 
-/// Reads the file and runs the stages up to `last`, or until one reports errors. Throws host::FileError if
-/// the scene file cannot be read, host::UsageError for a -D without `=`.
+/// Reads the file and runs the stages up to `last`; after errors each does what it can, to find more of them.
+/// Throws host::FileError if the scene file cannot be read, host::UsageError for a -D without `=`.
 Loaded load(const SceneOptions& options, Stage last);
 
 /// Prints all diagnostics to stderr, what the scene printed, and how many errors there were. True if there

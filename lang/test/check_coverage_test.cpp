@@ -87,6 +87,7 @@ std::vector<Diag> reported_by(Diag kind, std::string text) {
         for (int i = 1; i < 40; ++i) {
             text += fmt::format("let a{} = [a{}]\n", i, i - 1);
         }
+        text += "print(a39)";
     }
     const std::vector<Definition> definitions =
         kind == Diag::unknown_param ? std::vector<Definition>{{"n", "1"}} : std::vector<Definition>{};

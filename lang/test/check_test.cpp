@@ -17,6 +17,27 @@ TEST(Check, SuggestsTheFieldThatWasMeant) {
 )");
 }
 
+TEST(Check, AsksForTheSignOfAField) {
+    EXPECT_EQ(messages_of("ball { radius 3, name \"b\" }\nball { center -(1, 2, 3) }\nball { radius(2) }"),
+              R"(a.scn:1:15: error: found `3` after `radius`; a field is set with `=` [field-assignment]
+    1 | ball { radius 3, name "b" }
+      |               ^
+      |               =
+a.scn:1:23: error: found `"b"` after `name`; a field is set with `=` [field-assignment]
+    1 | ball { radius 3, name "b" }
+      |                       ^~~
+      |                       =
+a.scn:2:15: error: found `-` after `center`; a field is set with `=` [field-assignment]
+    2 | ball { center -(1, 2, 3) }
+      |               ^
+      |               =
+a.scn:3:14: error: found `(` after `radius`; a field is set with `=` [field-assignment]
+    3 | ball { radius(2) }
+      |              ^
+      |               =
+)");
+}
+
 TEST(Check, AsksForTheUnitOfAnAngle) {
     EXPECT_EQ(messages_of("eye { fov_y = -40 }"),
               R"(a.scn:1:15: error: `fov_y` takes an angle, this is a number [angle-expected]

@@ -76,7 +76,72 @@ a.scn:1:15: note: in the loop with i = 3; the first of 2 such values
               R"(a.scn:1:35: error: radius is -1; a radius is greater than 0 [value-out-of-range]
     1 | fn f(r: number) = ball { radius = r }
       |                                   ^
-a.scn:1:35: note: the first of 2 such values
+a.scn:2:1: note: in the call of `f`; the first of 2 such values
+)");
+    EXPECT_EQ(messages_of("ball { radius = [-1][0] }\nball { center = (0, sum([-1, exp(1000)]), 0) }"),
+              R"(a.scn:1:17: error: radius is -1; a radius is greater than 0 [value-out-of-range]
+    1 | ball { radius = [-1][0] }
+      |                 ^~~~~~~
+a.scn:2:21: error: center is (0, inf, 0); a field takes finite numbers [not-finite]
+    2 | ball { center = (0, sum([-1, exp(1000)]), 0) }
+      |                     ^~~~~~~~~~~~~~~~~~~~
+)");
+}
+
+TEST(Evaluation, TellsWhereInTheSceneAValueIsWrong) {
+    EXPECT_EQ(messages_of(R"(fn leg(x: number) = ball { radius = x }
+let table = pile {
+  for (i in 0..2) {
+    for (j in 1..4) {
+      leg(1.5 - i * j)
+    }
+  }
+}
+pile { table })"),
+              R"(a.scn:1:37: error: radius is -0.5; a radius is greater than 0 [value-out-of-range]
+    1 | fn leg(x: number) = ball { radius = x }
+      |                                     ^
+a.scn:5:7: note: in the call of `leg`; the first of 2 such values
+a.scn:4:5: note: in the loop with j = 2
+a.scn:3:3: note: in the loop with i = 1
+a.scn:2:13: note: in `table/leg[4]`
+)");
+}
+
+// What a definition needs is computed when it is first used, but that is not where it stands.
+TEST(Evaluation, KnowsDefinitionsFromTheirUses) {
+    EXPECT_EQ(messages_of("let b = ball { radius = -1 }\nfor (i in 0..3) { pile { b } }"),
+              R"(a.scn:1:25: error: radius is -1; a radius is greater than 0 [value-out-of-range]
+    1 | let b = ball { radius = -1 }
+      |                         ^~
+)");
+}
+
+TEST(Evaluation, TellsTheInnermostAndTheOutermostOfManyCalls) {
+    EXPECT_EQ(messages_of("fn f(n: number) -> number = if (n == 0) 1 / n else f(n - 1)\nprint(f(9))"),
+              R"(a.scn:1:45: error: this divides by 0 [division-by-zero]
+    1 | fn f(n: number) -> number = if (n == 0) 1 / n else f(n - 1)
+      |                                             ^
+a.scn:1:52: note: in the call of `f`
+a.scn:1:52: note: in the call of `f`
+a.scn:1:52: note: in the call of `f`
+a.scn:2:7: note: in the call of `f`, 7 calls further out
+)");
+}
+
+TEST(Evaluation, ReportsIndependentMistakesAndNothingThatFollowsFromThem) {
+    EXPECT_EQ(messages_of("let a = 1 / 0\nlet b = a + [1][2]\nball { radius = b, center = (b, 0, 0) }\n"
+                          "chain { if (a > 1) { points = [] } }\nassert(a == 1, \"one\")\n"
+                          "for (i in 0..a) { ball { radius = -1 } }\noutput { samples = 5 }"),
+              R"(a.scn:1:13: error: this divides by 0 [division-by-zero]
+    1 | let a = 1 / 0
+      |             ^
+a.scn:2:17: error: the index is 2; the list has 1 element, counted from 0 [index-out-of-range]
+    2 | let b = a + [1][2]
+      |                 ^
+a.scn:7:20: error: samples is 5; `samples` is a square number, at least 1 [value-out-of-range]
+    7 | output { samples = 5 }
+      |                    ^
 )");
 }
 
@@ -84,9 +149,9 @@ TEST(Evaluation, PutsLimitsWithoutWordsIntoWords) {
     EXPECT_EQ(
         messages_of(
             "output { size = (1.5, 2), samples = 5 }\neye { fov_y = 200deg }\nwall { normal = (0, 0, 0) }"),
-        R"(a.scn:1:17: error: size is (1.5, 2); `size` is a whole number, at least 1 [value-out-of-range]
+        R"(a.scn:1:18: error: size is (1.5, 2); `size` is a whole number, at least 1 [value-out-of-range]
     1 | output { size = (1.5, 2), samples = 5 }
-      |                 ^~~~~~~~
+      |                  ^~~
 a.scn:1:37: error: samples is 5; `samples` is a square number, at least 1 [value-out-of-range]
     1 | output { size = (1.5, 2), samples = 5 }
       |                                     ^
@@ -105,9 +170,9 @@ a.scn:3:17: error: normal is (0, 0, 0); `normal` is not the zero vector [value-o
 
 TEST(Evaluation, RefusesValuesThatAreNotFinite) {
     EXPECT_EQ(messages_of("chain { points = [(0, 1, 2), (0, exp(1000), 0)] }"),
-              R"(a.scn:1:18: error: points is (0, inf, 0); a field takes finite numbers [not-finite]
+              R"(a.scn:1:34: error: points is (0, inf, 0); a field takes finite numbers [not-finite]
     1 | chain { points = [(0, 1, 2), (0, exp(1000), 0)] }
-      |                  ^~~~~~~~~~~~~~~~~~~~~~~~~~~~~~
+      |                                  ^~~~~~~~~
 )");
     EXPECT_EQ(Scene("ball { radius = sqrt(-1) }").summary(), "1 not-finite\n");
 }

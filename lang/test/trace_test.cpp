@@ -118,6 +118,7 @@ TEST(Trace, ReportsRecursionThatDependsOnTheSurface) {
         R"(a.scn:1:40: error: `f` calls itself under a condition that depends on the surface [surface-recursion]
     1 | fn f(x: number) -> number = if (x > 0) f(x - 1) else 0
       |                                        ^~~~~~~~
+a.scn:2:52: note: in the call of `f`
 )");
 }
 

@@ -128,6 +128,18 @@ TEST_F(CommandLine, CheckReportsAllMistakesOfAllFilesInOneRun) {
     }
 }
 
+// Exactly these, each at its place, and nothing that follows from them.
+TEST_F(CommandLine, CheckTellsTwentyMistakesApart) {
+    const std::string mistakes = SCC_SOURCE_DIR "/compiler/cli/test/mistakes/";
+    std::filesystem::copy(mistakes + "twenty.scn", path("twenty.scn"));
+    std::filesystem::copy(mistakes + "twenty.txt", path("twenty.txt"));
+    const auto result = scc({"check", "twenty.scn"});
+    EXPECT_EQ(result.code, 1);
+    EXPECT_EQ(result.err, read("twenty.txt"));
+    const auto json = nlohmann::json::parse(scc({"check", "--json", "twenty.scn"}).out);
+    EXPECT_EQ(json["diagnostics"].size(), 20U);
+}
+
 TEST_F(CommandLine, CheckWritesJson) {
     write("a.scn", std::string("sphere { radios = 1 }\n") + small_scene);
     const auto result = scc({"check", "--json", "a.scn"});
