@@ -1,6 +1,8 @@
 #include "lang/rows.h"
 
 #include <algorithm>
+#include <new>
+#include <sys/mman.h>
 #include <type_traits>
 
 namespace scc::lang {
@@ -80,6 +82,24 @@ void replace(Value& value, const std::vector<Scalar>& with) {
 }
 
 } // namespace
+
+/// Long columns get large pages where the system has them: millions of small ones take longer to be had than
+/// their numbers to be computed.
+Column::Column(std::size_t size) {
+    constexpr std::size_t large_page = std::size_t{1} << 21U;
+    const std::size_t bytes = std::max(size, std::size_t{1}) * sizeof(double);
+    const std::size_t page = bytes >= large_page ? large_page : alignof(std::max_align_t);
+    const std::size_t whole = (bytes + page - 1) / page * page;
+    numbers_.reset(static_cast<double*>(std::aligned_alloc(page, whole)));
+    if (!numbers_) {
+        throw std::bad_alloc();
+    }
+#ifdef MADV_HUGEPAGE
+    if (page == large_page) {
+        madvise(numbers_.get(), whole, MADV_HUGEPAGE);
+    }
+#endif
+}
 
 std::vector<std::uint32_t> symbols_of(const Thing& thing) {
     std::vector<std::uint32_t> symbols;

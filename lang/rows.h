@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -14,12 +15,15 @@ namespace scc::lang {
 /// Numbers of one place in all things, in the order of the rounds. Not initialised.
 class Column {
 public:
-    explicit Column(std::size_t size) : numbers_(std::make_unique_for_overwrite<double[]>(size)) {}
+    explicit Column(std::size_t size);
     double* data() { return numbers_.get(); }
     double operator[](std::size_t round) const { return numbers_[round]; }
 
 private:
-    std::unique_ptr<double[]> numbers_;
+    struct Free {
+        void operator()(double* numbers) const { std::free(numbers); }
+    };
+    std::unique_ptr<double[], Free> numbers_;
 };
 
 /// Where the things of each round were written, for those that do not all come from the same text.

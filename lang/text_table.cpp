@@ -142,18 +142,31 @@ class TableReader {
 public:
     TableReader(std::string_view text, FileId file) : text_(text), file_(file) {}
 
-    /// The table whose first row is the line at `begin`, if there is one.
-    std::optional<TextTable> read(std::size_t begin) {
+    /// The table whose first row is the line at `begin`, if there is one. `begin` moves past what has been
+    /// read.
+    std::optional<TextTable> read(std::size_t& begin) {
         const std::string_view line = line_at(text_, begin);
         const std::optional<Skeleton> skeleton = skeleton_of(line);
         const char* const end = text_.data() + text_.size();
+        const char* const second = std::min(line.data() + line.size() + 1, end);
         std::array<double, most_numbers> numbers{};
-        const char* second = line.data() + line.size() + 1;
-        if (!skeleton || second >= end || match(*skeleton, second, end, numbers.data()) == nullptr) {
+        std::size_t like_it = 0;
+        const char* at = second;
+        while (skeleton && like_it < fewest_rows && at < end) {
+            const char* row_end = match(*skeleton, at, end, numbers.data());
+            if (row_end == nullptr) {
+                break;
+            }
+            ++like_it;
+            at = std::min(row_end + 1, end);
+        }
+        const std::size_t text_left = text_.size() - begin;
+        begin = offset(at);
+        if (like_it + 1 < fewest_rows) {
             return std::nullopt;
         }
         // Room for all rows that the text can have; what is not used is never touched.
-        const std::size_t most_rows = (text_.size() - begin) / skeleton->least_length + 2;
+        const std::size_t most_rows = text_left / skeleton->least_length + 2;
         auto columns = std::make_shared<std::vector<Column>>();
         for (std::size_t i = 0; i + 1 < skeleton->parts.size(); ++i) {
             columns->emplace_back(most_rows);
@@ -162,7 +175,7 @@ public:
         places->reserve(most_rows);
         const std::size_t indent = line.find_first_not_of(" \t");
         const std::size_t tail = line.size() - (line.find_last_of('}') + 1);
-        const char* at = line.data();
+        at = line.data();
         while (at < end) {
             const char* row_end = match(*skeleton, at, end, numbers.data());
             if (row_end == nullptr) {
@@ -174,9 +187,7 @@ public:
             places->emplace_back(offset(at + indent), offset(row_end - tail));
             at = std::min(row_end + 1, end);
         }
-        if (places->size() < fewest_rows) {
-            return std::nullopt;
-        }
+        begin = offset(at);
         return TextTable{{file_, places->front().first, places->front().second},
                          {file_, offset(second), offset(at)},
                          std::move(columns),
@@ -197,10 +208,7 @@ std::vector<TextTable> find_tables(std::string_view text, FileId file) {
     TableReader reader(text, file);
     for (std::size_t begin = 0; begin < text.size();) {
         if (auto table = reader.read(begin)) {
-            begin = table->rest.end;
             tables.push_back(std::move(*table));
-        } else {
-            begin += line_at(text, begin).size() + 1;
         }
     }
     return tables;
