@@ -108,8 +108,8 @@ void timed(Loaded& loaded, const char* stage, Run run) {
 Loaded load(const SceneOptions& options, Stage last) {
     Loaded loaded;
     const std::vector<lang::Definition> definitions = parse_definitions(options.definitions);
-    const lang::FileId file = loaded.sources.add(options.file, read_text_file(options.file));
     timed(loaded, "parse", [&] {
+        const lang::FileId file = loaded.sources.add(options.file, read_text_file(options.file));
         if (last >= Stage::module) {
             loaded.tree = lang::read_file(loaded.sources, file, loaded.diagnostics);
             return;

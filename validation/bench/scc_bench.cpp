@@ -358,11 +358,13 @@ private:
             const double theirs = runs.at(povray_name).parse.median();
             const double memory =
                 runs.at(render_name).stats.at("peak_rss_mb").get<double>() * 1e6 / static_cast<double>(count);
-            figures = fmt::format(
-                "; ours {:.0f} MB/s, {:.2f} M objects/s, theirs {:.1f} MB/s, {:.2f} M objects/s; at most "
-                "{:.0f} bytes per sphere with the hierarchy",
-                scene.scn_bytes / ours * 1e-6, static_cast<double>(count) / ours * 1e-6,
-                scene.pov_bytes / theirs * 1e-6, static_cast<double>(count) / theirs * 1e-6, memory);
+            const auto rates = [&](double bytes, double seconds) {
+                const std::string text =
+                    bytes > 1e6 ? fmt::format("{:.0f} MB/s, ", bytes / seconds * 1e-6) : "";
+                return text + fmt::format("{:.2f} M objects/s", static_cast<double>(count) / seconds * 1e-6);
+            };
+            figures = fmt::format("; ours {}, theirs {}; at most {:.0f} bytes per sphere with the hierarchy",
+                                  rates(scene.scn_bytes, ours), rates(scene.pov_bytes, theirs), memory);
         }
         add(std::move(row), fmt::format("reading spheres from {}, POV-Ray", how),
             fmt::format("{} spheres{}", count, figures), 1, target);
