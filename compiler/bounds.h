@@ -4,10 +4,21 @@
 #include "runtime/bounds.h"
 
 #include <optional>
+#include <type_traits>
 
 namespace scc::compiler {
 
 /// In object space; none for unbounded shapes.
+template <class Shape>
+std::optional<runtime::Bounds<double>> object_bounds(const Shape& shape, const ir::Scene& scene) {
+    if constexpr (std::is_same_v<Shape, runtime::Plane<double>>) {
+        return std::nullopt;
+    } else if constexpr (std::is_same_v<Shape, runtime::Mesh<double>>) {
+        return scene.meshes[shape.mesh].box;
+    } else {
+        return shape.bounds();
+    }
+}
 std::optional<runtime::Bounds<double>> object_bounds(const ir::Shape& shape, const ir::Scene& scene);
 
 /// The smallest box around all bounded objects, in world space; empty (min > max) if there are none.

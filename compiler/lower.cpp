@@ -9,6 +9,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -30,20 +31,46 @@ constexpr std::size_t most_objects = 20'000'000;
 
 // ---- shapes from their own descriptions ----------------------------------------------------------------
 
-void assign(double& target, const lang::Value& value) {
-    target = to_number(value);
+/// `number` gives a scalar's value: its own, or that of a round.
+template <class Number>
+void assign(double& target, const lang::Value& value, const Number& number) {
+    target = number(std::get<lang::NumberValue>(value.v).v);
 }
-void assign(bool& target, const lang::Value& value) {
-    target = to_bool(value);
+template <class Number>
+void assign(bool& target, const lang::Value& value, const Number& number) {
+    target = number(std::get<lang::BoolValue>(value.v).v) != 0;
 }
-void assign(Vec3<double>& target, const lang::Value& value) {
-    target = to_vec3(value);
+template <class Number>
+void assign(Vec3<double>& target, const lang::Value& value, const Number& number) {
+    const auto& v = std::get<lang::Vec3Value>(value.v).v;
+    target = {number(v[0]), number(v[1]), number(v[2])};
+}
+
+/// The siblings' part of their paths: a name that several share is numbered, so that every path is unique and
+/// stable.
+struct Numbering {
+    std::string parent_path;
+    std::map<std::string, std::size_t> total;
+    std::map<std::string, std::size_t> seen;
+};
+
+/// An author's `name` that can make two paths the same.
+bool has_path_in_name(const Thing& thing) {
+    const lang::FieldValue* name = thing.find("name");
+    const auto* text = name != nullptr ? std::get_if<std::string>(&name->value.v) : nullptr;
+    const auto within = [](const lang::ThingPtr& child) { return has_path_in_name(*child); };
+    return (text != nullptr && text->find_first_of("/[") != std::string::npos) ||
+           std::any_of(thing.children.begin(), thing.children.end(), within) ||
+           (thing.rows && std::any_of(thing.rows->things.begin(), thing.rows->things.end(), within));
 }
 
 class ObjectLowering {
 public:
-    ObjectLowering(const LowerOptions& options, ir::Scene& scene, lang::Diagnostics& diagnostics)
-        : options_(options), scene_(scene), diagnostics_(diagnostics), materials_(scene, diagnostics) {}
+    ObjectLowering(const lang::Module& module, const LowerOptions& options, ir::Scene& scene,
+                   lang::Diagnostics& diagnostics)
+        : options_(options), scene_(scene), diagnostics_(diagnostics), materials_(scene, diagnostics),
+          paths_may_meet_(std::any_of(module.items.begin(), module.items.end(),
+                                      [](const lang::ThingPtr& item) { return has_path_in_name(*item); })) {}
 
     void add_all(const std::vector<lang::ThingPtr>& siblings, const std::string& parent_path,
                  const Affine<double>& world_from_parent, const Thing* inherited_material);
@@ -51,12 +78,27 @@ public:
 private:
     void add(const Thing& thing, const std::string& path, const Affine<double>& world_from_parent,
              const Thing* inherited_material);
+    bool can_be_array(const lang::ThingRows& rows) const;
+    void add_array(const lang::ThingRows& rows, Numbering& numbering, const Affine<double>& world_from_parent,
+                   const Thing* inherited_material);
+    std::optional<ir::ObjectColumn> column(const lang::ThingRows& rows, std::size_t index,
+                                           const Numbering& numbering,
+                                           const Affine<double>& world_from_parent,
+                                           const Thing* inherited_material);
+    std::optional<ir::Shapes> make_shapes(const lang::ThingRows& rows, std::size_t index);
+    template <class Shape>
+    std::optional<ir::Shapes> described_shapes(const lang::ThingRows& rows, std::size_t index);
+    std::optional<Affine<double>> place_of_thing(const Thing& thing, const std::string& path,
+                                                 const Affine<double>& world_from_parent);
+    bool has_room(std::size_t more, const Thing& thing);
+    std::string next_path(Numbering& numbering, const Thing& thing) const;
     std::string unique_path(const std::string& wanted);
     std::optional<ir::Shape> make_shape(const Thing& thing);
     template <class Shape>
     std::optional<ir::Shape> described_shape(const Thing& thing);
-    template <class Owner, class T>
-    bool set_field(Owner& shape, const runtime::Field<Owner, T>& field, const Thing& thing);
+    template <class Owner, class T, class Number>
+    bool set_field(Owner& shape, const runtime::Field<Owner, T>& field, const lang::FieldValue& given,
+                   const Number& number);
     std::optional<ir::Shape> mesh_shape(const Thing& thing);
     std::optional<std::uint32_t> load_mesh(const Thing& thing, const std::string& file, MeshNormals normals);
 
@@ -68,34 +110,34 @@ private:
     std::set<std::string> mesh_names_;
     std::optional<host::Cache> cache_; ///< once a mesh asks for it
     std::set<std::string> paths_;
+    std::vector<lang::ThingPtr> taken_apart_; ///< things of rows; the materials refer to them
+    std::size_t count_ = 0;                   ///< of objects, those in arrays too
+    bool paths_may_meet_;
     bool full_ = false;
 };
 
-template <class Owner, class T>
-bool ObjectLowering::set_field(Owner& shape, const runtime::Field<Owner, T>& field, const Thing& thing) {
-    const lang::FieldValue* given = thing.find(field.name);
-    if (given == nullptr) {
-        return true;
-    }
+template <class Owner, class T, class Number>
+bool ObjectLowering::set_field(Owner& shape, const runtime::Field<Owner, T>& field,
+                               const lang::FieldValue& given, const Number& number) {
     if (field.present != nullptr) {
         shape.*field.present = true;
     }
     T& member = shape.*field.member;
-    if constexpr (requires { assign(member, given->value); }) {
-        assign(member, given->value);
+    if constexpr (requires { assign(member, given.value, number); }) {
+        assign(member, given.value, number);
         if constexpr (std::is_same_v<T, runtime::Vec3<double>>) {
             member = field.rule == runtime::Rule::direction ? normalize(member) : member;
         }
     } else {
-        const auto& list = *std::get<lang::ListPtr>(given->value.v);
+        const auto& list = *std::get<lang::ListPtr>(given.value.v);
         if (list.size() != member.size()) {
-            diagnostics_.report(Diag::impossible_shape, given->value_span,
+            diagnostics_.report(Diag::impossible_shape, given.value_span,
                                 fmt::format("`{}` has {} elements; a {} has {}", field.name, list.size(),
                                             Owner::name, member.size()));
             return false;
         }
         for (std::size_t i = 0; i < member.size(); ++i) {
-            assign(member[i], list[i]);
+            assign(member[i], list[i], number);
         }
     }
     return true;
@@ -104,9 +146,12 @@ bool ObjectLowering::set_field(Owner& shape, const runtime::Field<Owner, T>& fie
 template <class Shape>
 std::optional<ir::Shape> ObjectLowering::described_shape(const Thing& thing) {
     Shape shape{};
-    const bool complete = std::apply(
-        [&](const auto&... field) { return (set_field(shape, field, thing) & ...); }, Shape::fields());
-    if (!complete) {
+    const auto set = [&](const auto& field) {
+        const lang::FieldValue* given = thing.find(field.name);
+        return given == nullptr ||
+               set_field(shape, field, *given, [](const lang::Scalar& scalar) { return scalar.value; });
+    };
+    if (!std::apply([&](const auto&... field) { return (set(field) & ...); }, Shape::fields())) {
         return std::nullopt;
     }
     if (const std::string_view wrong = problem(shape); !wrong.empty()) {
@@ -116,15 +161,14 @@ std::optional<ir::Shape> ObjectLowering::described_shape(const Thing& thing) {
     return ir::Shape{shape};
 }
 
-std::optional<ir::Shape> ObjectLowering::make_shape(const Thing& thing) {
-    if (thing.constructor->name == runtime::Mesh<double>::name) {
-        return mesh_shape(thing);
-    }
-    std::optional<ir::Shape> result;
-    const auto try_kind = [&]<class Shape>(std::type_identity<Shape>) {
+/// Calls `make` with the type that describes itself under this name, if there is one.
+template <class Result, class Make>
+Result made_by_description(std::string_view name, const Make& make) {
+    Result result{};
+    const auto try_kind = [&]<class Shape>(std::type_identity<Shape> kind) {
         if constexpr (requires { Shape::fields(); }) {
-            if (thing.constructor->name == Shape::name) {
-                result = described_shape<Shape>(thing);
+            if (name == Shape::name) {
+                result = make(kind);
             }
         }
     };
@@ -132,6 +176,15 @@ std::optional<ir::Shape> ObjectLowering::make_shape(const Thing& thing) {
         (try_kind(std::type_identity<All>{}), ...);
     }(runtime::Shapes<double>{});
     return result;
+}
+
+std::optional<ir::Shape> ObjectLowering::make_shape(const Thing& thing) {
+    if (thing.constructor->name == runtime::Mesh<double>::name) {
+        return mesh_shape(thing);
+    }
+    return made_by_description<std::optional<ir::Shape>>(
+        thing.constructor->name,
+        [&]<class Shape>(std::type_identity<Shape>) { return described_shape<Shape>(thing); });
 }
 
 // ---- meshes
@@ -208,52 +261,181 @@ bool is_singular(const Affine<double>& a) {
 
 void ObjectLowering::add_all(const std::vector<lang::ThingPtr>& siblings, const std::string& parent_path,
                              const Affine<double>& world_from_parent, const Thing* inherited_material) {
-    // A name that several siblings share is numbered, so that every path is unique and stable.
-    std::map<std::string, int> total;
-    std::map<std::string, int> seen;
+    Numbering numbering{parent_path, {}, {}};
     for (const lang::ThingPtr& thing : siblings) {
-        if (thing->constructor->type == lang::TypeKind::shape) {
-            ++total[own_name(*thing)];
+        if (thing->rows) {
+            for (const lang::ThingPtr& one : thing->rows->things) {
+                numbering.total[own_name(*one)] += thing->rows->count;
+            }
+        } else if (thing->constructor->type == lang::TypeKind::shape) {
+            ++numbering.total[own_name(*thing)];
         }
     }
     for (const lang::ThingPtr& thing : siblings) {
         if (thing->constructor->type != lang::TypeKind::shape || full_) {
             continue;
         }
-        const std::string name = own_name(*thing);
-        const std::string path =
-            total[name] > 1 ? fmt::format("{}{}[{}]", parent_path, name, seen[name]++) : parent_path + name;
-        add(*thing, path, world_from_parent, inherited_material);
+        if (!thing->rows) {
+            add(*thing, next_path(numbering, *thing), world_from_parent, inherited_material);
+        } else if (can_be_array(*thing->rows)) {
+            add_array(*thing->rows, numbering, world_from_parent, inherited_material);
+        } else {
+            for (std::size_t i = 0; i < count_of(*thing) && !full_; ++i) {
+                const std::size_t in_round = thing->rows->things.size();
+                taken_apart_.push_back(thing->rows->thing(i % in_round, i / in_round));
+                const Thing& one = *taken_apart_.back();
+                add(one, next_path(numbering, one), world_from_parent, inherited_material);
+            }
+        }
     }
+}
+
+std::string ObjectLowering::next_path(Numbering& numbering, const Thing& thing) const {
+    const std::string name = own_name(thing);
+    const std::string path = numbering.parent_path + name;
+    return numbering.total[name] > 1 ? fmt::format("{}[{}]", path, numbering.seen[name]++) : path;
+}
+
+std::optional<Affine<double>> ObjectLowering::place_of_thing(const Thing& thing, const std::string& path,
+                                                             const Affine<double>& world_from_parent) {
+    const lang::FieldValue* transform = thing.find("transform");
+    if (transform == nullptr) {
+        return world_from_parent;
+    }
+    const Affine<double> place = compose(world_from_parent, to_affine(transform->value));
+    if (is_singular(place)) {
+        diagnostics_.report(Diag::singular_transform, transform->value_span, path);
+        return std::nullopt;
+    }
+    return place;
+}
+
+bool ObjectLowering::has_room(std::size_t more, const Thing& thing) {
+    if (!full_ && most_objects - count_ < more) {
+        diagnostics_.report(Diag::too_many_objects, thing.span, most_objects);
+        full_ = true;
+    }
+    return !full_;
 }
 
 void ObjectLowering::add(const Thing& thing, const std::string& path, const Affine<double>& world_from_parent,
                          const Thing* inherited_material) {
-    Affine<double> world_from_object = world_from_parent;
-    if (const lang::FieldValue* transform = thing.find("transform"); transform != nullptr) {
-        world_from_object = compose(world_from_parent, to_affine(transform->value));
-        if (is_singular(world_from_object)) {
-            diagnostics_.report(Diag::singular_transform, transform->value_span, path);
-            return;
-        }
+    const auto place = place_of_thing(thing, path, world_from_parent);
+    if (!place) {
+        return;
     }
     const lang::FieldValue* own = thing.find("material");
     const Thing* material = own != nullptr ? to_thing(own->value).get() : inherited_material;
-    if (scene_.objects.size() >= most_objects) {
-        if (!full_) {
-            diagnostics_.report(Diag::too_many_objects, thing.span, most_objects);
-        }
-        full_ = true;
+    if (!has_room(1, thing)) {
         return;
     }
     if (thing.constructor->takes_children) {
-        add_all(thing.children, path + "/", world_from_object, material);
+        add_all(thing.children, path + "/", *place, material);
         return;
     }
     if (const std::optional<ir::Shape> shape = make_shape(thing)) {
+        ++count_;
         scene_.objects.push_back(
-            {*shape, world_from_object, materials_.sides(material, path), unique_path(path), thing.span});
+            {*shape, *place, materials_.sides(material, path), unique_path(path), thing.span});
     }
+}
+
+// ---- arrays
+// ------------------------------------------------------------------------------------------------
+
+/// Things that describe themselves in numbers, with paths that meet no other.
+bool ObjectLowering::can_be_array(const lang::ThingRows& rows) const {
+    const auto is_described = [](const lang::ThingPtr& thing) {
+        return made_by_description<bool>(thing->constructor->name, [](auto) { return true; });
+    };
+    return rows.count > 1 && !paths_may_meet_ &&
+           std::all_of(rows.things.begin(), rows.things.end(), is_described);
+}
+
+void ObjectLowering::add_array(const lang::ThingRows& rows, Numbering& numbering,
+                               const Affine<double>& world_from_parent, const Thing* inherited_material) {
+    if (!has_room(rows.count * rows.things.size(), *rows.things.front())) {
+        return;
+    }
+    ir::ObjectArray array{scene_.objects.size(), rows.count, {}};
+    for (std::size_t i = 0; i < rows.things.size(); ++i) {
+        if (auto made = column(rows, i, numbering, world_from_parent, inherited_material)) {
+            array.columns.push_back(std::move(*made));
+        }
+    }
+    for (const lang::ThingPtr& thing : rows.things) {
+        numbering.seen[own_name(*thing)] += rows.count;
+    }
+    if (array.columns.size() == rows.things.size()) {
+        count_ += rows.count * rows.things.size();
+        scene_.arrays.push_back(std::move(array));
+    }
+}
+
+std::optional<ir::ObjectColumn> ObjectLowering::column(const lang::ThingRows& rows, std::size_t index,
+                                                       const Numbering& numbering,
+                                                       const Affine<double>& world_from_parent,
+                                                       const Thing* inherited_material) {
+    const Thing& thing = *rows.things[index];
+    const std::string name = own_name(thing);
+    const auto same = [&](const lang::ThingPtr& other) { return own_name(*other) == name; };
+    const auto here = rows.things.begin() + static_cast<std::ptrdiff_t>(index);
+    const auto seen = numbering.seen.find(name);
+    ir::ObjectColumn column;
+    column.path = numbering.parent_path + name;
+    column.first_number = (seen == numbering.seen.end() ? 0 : seen->second) +
+                          static_cast<std::size_t>(std::count_if(rows.things.begin(), here, same));
+    column.number_step =
+        static_cast<std::size_t>(std::count_if(rows.things.begin(), rows.things.end(), same));
+    column.span = thing.span;
+    column.places = rows.places;
+    column.first_place = rows.begin;
+    const auto place = place_of_thing(thing, column.path_of(0), world_from_parent);
+    auto shapes = make_shapes(rows, index);
+    if (!place || !shapes) {
+        return std::nullopt;
+    }
+    column.world_from_object = *place;
+    column.shapes = std::move(*shapes);
+    const lang::FieldValue* own = thing.find("material");
+    if (own != nullptr) {
+        column.sides = materials_.sides(rows, to_thing(own->value),
+                                        [&](std::size_t round) { return column.path_of(round); });
+    } else {
+        column.sides = {materials_.sides(inherited_material, column.path_of(0))};
+    }
+    return column;
+}
+
+std::optional<ir::Shapes> ObjectLowering::make_shapes(const lang::ThingRows& rows, std::size_t index) {
+    return made_by_description<std::optional<ir::Shapes>>(
+        rows.things[index]->constructor->name,
+        [&]<class Shape>(std::type_identity<Shape>) { return described_shapes<Shape>(rows, index); });
+}
+
+template <class Shape>
+std::optional<ir::Shapes> ObjectLowering::described_shapes(const lang::ThingRows& rows, std::size_t index) {
+    std::vector<Shape> shapes(rows.count);
+    const auto set = [&](const auto& field) {
+        const lang::FieldValue* given = rows.things[index]->find(field.name);
+        bool fine = true;
+        for (std::size_t round = 0; given != nullptr && fine && round < rows.count; ++round) {
+            fine = set_field(shapes[round], field, *given,
+                             [&](const lang::Scalar& scalar) { return rows.number(scalar, round); });
+        }
+        return fine;
+    };
+    if (!std::apply([&](const auto&... field) { return (set(field) & ...); }, Shape::fields())) {
+        return std::nullopt;
+    }
+    bool sound = true;
+    for (std::size_t round = 0; round < rows.count; ++round) {
+        if (const std::string_view wrong = problem(shapes[round]); !wrong.empty()) {
+            diagnostics_.report(Diag::impossible_shape, rows.span(index, round), wrong);
+            sound = false;
+        }
+    }
+    return sound ? std::optional<ir::Shapes>(std::move(shapes)) : std::nullopt;
 }
 
 // Two paths meet only where an author's `name` holds a slash or a bracket.
@@ -271,7 +453,7 @@ ir::Scene lower(const lang::Module& module, const LowerOptions& options, lang::D
     ir::Scene scene;
     scene.name = options.name;
     lower_settings(module, scene, diagnostics);
-    ObjectLowering(options, scene, diagnostics).add_all(module.items, "", {}, nullptr);
+    ObjectLowering(module, options, scene, diagnostics).add_all(module.items, "", {}, nullptr);
     lower_camera(module, options, scene, diagnostics);
     lower_lights(module, scene, diagnostics);
     return scene;

@@ -33,7 +33,8 @@ std::uint32_t MaterialTable::index(const Thing* phong, const std::string& owner)
                                         .fields = {},
                                         .children = {},
                                         .name = "default",
-                                        .span = {}};
+                                        .span = {},
+                                        .rows = nullptr};
     const Thing& thing = phong != nullptr ? *phong : default_material;
     ir::Material material;
     material.span = thing.span;
@@ -113,6 +114,44 @@ void MaterialTable::warn_if_bright(const Thing& phong, std::string_view field,
     if (value.function == runtime::no_function && largest > 1) {
         diagnostics_.report(lang::Diag::bright_reflectance, place_of(phong, field),
                             fmt::format("`{}`", field), largest);
+    }
+}
+
+// ---- rows of numbers --------------------------------------------------------------------------------------
+
+/// The slot of this row, or the empty one where it belongs.
+std::size_t RowIndex::slot_of(const std::uint64_t* row) const {
+    std::uint64_t hash = 0;
+    for (std::size_t i = 0; i < width_; ++i) {
+        hash = (hash ^ row[i]) * 0x9e3779b97f4a7c15U;
+        hash ^= hash >> 32U;
+    }
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t slot = hash & mask;
+    while (slots_[slot] != empty && !std::equal(row, row + width_, rows_.data() + slots_[slot] * width_)) {
+        slot = (slot + 1) & mask;
+    }
+    return slot;
+}
+
+std::uint32_t RowIndex::find_or_add(const std::uint64_t* row) {
+    const std::size_t slot = slot_of(row);
+    if (slots_[slot] != empty) {
+        return slots_[slot];
+    }
+    const auto id = static_cast<std::uint32_t>(count_++);
+    slots_[slot] = id;
+    rows_.insert(rows_.end(), row, row + width_);
+    if (count_ * 2 > slots_.size()) {
+        grow();
+    }
+    return id;
+}
+
+void RowIndex::grow() {
+    slots_.assign(slots_.size() * 2, empty);
+    for (std::uint32_t id = 0; id < count_; ++id) {
+        slots_[slot_of(rows_.data() + id * width_)] = id;
     }
 }
 

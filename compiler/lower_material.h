@@ -3,11 +3,16 @@
 #include "compiler/ir/scene.h"
 #include "lang/check.h"
 #include "lang/diagnostic.h"
+#include "lang/rows.h"
 
+#include <bit>
+#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace scc::compiler {
 
@@ -19,6 +24,11 @@ public:
 
     /// `owner` names a material that has no name of its own. A null thing is the default material.
     runtime::Sides sides(const lang::Thing* material, const std::string& owner);
+    /// Of rounds whose `material` has these scalars: one per round, or one for all. Rounds with the same
+    /// numbers have the same material, named after the first of them by `owner(round)`.
+    template <class Owner>
+    std::vector<runtime::Sides> sides(const lang::ThingRows& rows, const lang::ThingPtr& material,
+                                      const Owner& owner);
 
 private:
     std::uint32_t index(const lang::Thing* phong, const std::string& owner);
@@ -38,6 +48,56 @@ private:
     std::map<const lang::Thing*, std::uint32_t> known_;
     std::map<const lang::Closure*, std::pair<std::int32_t, std::vector<double>>> functions_;
     std::set<std::string> names_;
+    std::vector<lang::ThingPtr> made_; ///< known_ refers to them
 };
+
+/// Gives each different row of numbers an index, in the order in which they come.
+class RowIndex {
+public:
+    explicit RowIndex(std::size_t width) : width_(width) {}
+
+    std::size_t size() const { return count_; }
+    std::uint32_t find_or_add(const std::uint64_t* row);
+
+private:
+    void grow();
+    std::size_t slot_of(const std::uint64_t* row) const;
+
+    std::size_t width_;
+    std::size_t count_ = 0;
+    std::vector<std::uint64_t> rows_;
+    std::vector<std::uint32_t> slots_ = std::vector<std::uint32_t>(64, empty);
+    static constexpr std::uint32_t empty = ~0U;
+};
+
+template <class Owner>
+std::vector<runtime::Sides> MaterialTable::sides(const lang::ThingRows& rows, const lang::ThingPtr& material,
+                                                 const Owner& owner) {
+    const std::vector<std::uint32_t> symbols =
+        material ? lang::symbols_of(*material) : std::vector<std::uint32_t>{};
+    if (symbols.empty()) {
+        return {sides(material.get(), owner(0))};
+    }
+    std::vector<runtime::Sides> different;
+    std::vector<runtime::Sides> result(rows.count);
+    std::vector<std::uint64_t> key(symbols.size());
+    std::vector<lang::Scalar> numbers(rows.columns->size());
+    RowIndex known(symbols.size());
+    for (std::size_t round = 0; round < rows.count; ++round) {
+        for (std::size_t i = 0; i < symbols.size(); ++i) {
+            key[i] = std::bit_cast<std::uint64_t>((*rows.columns)[symbols[i]][rows.begin + round]);
+        }
+        const std::uint32_t id = known.find_or_add(key.data());
+        if (id == different.size()) {
+            for (const std::uint32_t symbol : symbols) {
+                numbers[symbol] = {(*rows.columns)[symbol][rows.begin + round]};
+            }
+            made_.push_back(lang::replaced(material, numbers));
+            different.push_back(sides(made_.back().get(), owner(round)));
+        }
+        result[round] = different[id];
+    }
+    return result;
+}
 
 } // namespace scc::compiler

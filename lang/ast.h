@@ -10,6 +10,10 @@
 #include <variant>
 #include <vector>
 
+namespace scc::lang {
+struct TextTable;
+}
+
 /// The syntax tree: plain structs with spans, as parsed. Nothing here knows a type, a shape or a value.
 namespace scc::lang::ast {
 
@@ -199,12 +203,17 @@ struct Field {
     Name name;
     ExprPtr value;
 };
+/// Lines that repeat `first`, the item before, but for its numbers.
+struct Table {
+    std::shared_ptr<const TextTable> rows;
+    const Construct* first;
+};
 struct Child { ///< an expression on a line of its own: puts its value into the surrounding thing
     ExprPtr value;
 };
 
 struct Item {
-    std::variant<Import, Param, Let, Function, For, If, Block, Field, Child> node;
+    std::variant<Import, Param, Let, Function, For, If, Block, Field, Child, Table> node;
     Span span;
 };
 

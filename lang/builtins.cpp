@@ -47,6 +47,7 @@ Value modulo(BuiltinRun& run, const Arguments& a) {
         run.report.report(Diag::division_by_zero, run.span);
         return {ErrorValue{}};
     }
+    run.math.require(ScalarOp::ne, divisor.v[0], {0});
     return pairwise<ScalarOp::mod>(run, a);
 }
 
@@ -73,7 +74,23 @@ Value normalize(BuiltinRun& run, const Arguments& a) {
         run.report.report(Diag::zero_vector, run.span, "`normalize`");
         return {ErrorValue{}};
     }
+    run.math.require(ScalarOp::ne, size.v[0], {0});
     return each(run.math, ScalarOp::div, v.kind, v, size);
+}
+
+/// One to three numbers; those that are missing are 0.
+Value random(BuiltinRun& run, const Arguments& a) {
+    std::array<Scalar, 3> v{};
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        v[i] = components(a[i]).v[0];
+    }
+    return number(run.math.apply(ScalarOp::random, v[0], v[1], v[2]));
+}
+
+/// Of a point in one, two or three dimensions.
+Value noise(BuiltinRun& run, const Arguments& a) {
+    const Components p = components(a[0]);
+    return number(run.math.apply(ScalarOp::noise, p.v[0], p.v[1], p.v[2]));
 }
 
 Value rgb(BuiltinRun&, const Arguments& a) {
@@ -231,6 +248,22 @@ std::vector<Overload> transforms(std::vector<std::vector<Type>> parameters, Run 
     return overloads;
 }
 
+/// Functions that the renderers do not have.
+std::vector<Overload> not_per_point(std::vector<Overload> overloads) {
+    for (Overload& overload : overloads) {
+        overload.per_point = false;
+    }
+    return overloads;
+}
+
+std::vector<Overload> randoms() {
+    std::vector<Overload> overloads;
+    for (std::size_t count = 1; count <= 3; ++count) {
+        overloads.push_back({std::vector<Type>(count, Type(K::number)), K::number, random});
+    }
+    return not_per_point(std::move(overloads));
+}
+
 std::vector<Builtin> make_table() {
     const auto vectors = {K::vec2, K::vec3};
     const auto rounded = {K::number, K::vec2, K::vec3, K::color};
@@ -259,6 +292,8 @@ std::vector<Builtin> make_table() {
         {"length", to_number(vectors, 1, length)},
         {"normalize", same(vectors, 1, normalize)},
         {"cross", same({K::vec3}, 2, cross_product)},
+        {"random", randoms()},
+        {"noise", not_per_point(to_number({K::number, K::vec2, K::vec3}, 1, noise))},
         {"rgb", {{{K::number, K::number, K::number}, K::color, rgb}}},
         {"srgb", {{{K::number, K::number, K::number}, K::color, srgb}}},
         {"translate", transforms({{K::vec3}, {K::number, K::number, K::number}}, translate)},
@@ -280,8 +315,8 @@ const std::vector<Builtin>& table() {
 
 constexpr std::array<std::string_view, 4> list_functions{"map", "filter", "sum", "len"};
 constexpr std::array<std::string_view, 2> statements{"assert", "print"};
-constexpr std::array<std::string_view, 10> unsupported{
-    "xyz", "blackbody", "spectrum", "metal", "random", "noise", "frame", "chromaticity", "luminance", "time"};
+constexpr std::array<std::string_view, 8> unsupported{"xyz",   "blackbody",    "spectrum",  "metal",
+                                                      "frame", "chromaticity", "luminance", "time"};
 
 template <class Names>
 bool contains(const Names& names, std::string_view name) {

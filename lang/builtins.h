@@ -23,7 +23,8 @@ struct Overload {
     std::vector<Type> parameters;
     Type result;
     Value (*run)(BuiltinRun& run, const std::vector<Value>& arguments);
-    bool needs_constants = false; ///< cannot be part of a per-point function
+    bool needs_constants = false; ///< takes known arguments only
+    bool per_point = true;        ///< can be part of a per-point function
 };
 
 /// A function of the language with one result per list of parameter types. `map filter sum len` are typed by

@@ -38,6 +38,8 @@ struct EvaluationLimits {
     std::uint32_t call_depth = 500;
     std::uint64_t list_length = 20'000'000;
     std::uint64_t string_length = 1'000'000;
+    std::uint64_t recorded_rounds =
+        32; ///< from here on it is tried to record a loop's body and to run all rounds at once
 };
 
 /// A scene file after checking and evaluation: the things on its top level, in order. Keeps the syntax trees

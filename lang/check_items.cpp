@@ -61,6 +61,7 @@ CheckedFile Checker::run(const ast::File& file, const std::vector<Definition>& g
     close(scope, checked.body.cells);
     checked.functions = std::move(functions_);
     checked.given = std::move(given_);
+    checked.expanded = std::move(expanded_);
     return checked;
 }
 
@@ -121,7 +122,9 @@ std::vector<ItemCode> Checker::items(const std::vector<ast::Item>& items, const 
     std::vector<ItemCode> out;
     const Into into{around, place, out};
     for (const ast::Item& written : items) {
+        const std::size_t reports = diagnostics_.count();
         std::visit([&](const auto& node) { item(node, written.span, into); }, written.node);
+        item_reported_ = diagnostics_.count() > reports;
     }
     return out;
 }

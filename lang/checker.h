@@ -26,6 +26,7 @@ struct CheckedFile {
     BodyCode body;
     std::vector<ParamCode> params;
     std::deque<FunctionCode> functions;
+    std::deque<ast::File> expanded; ///< rows of tables that the code refers to
     std::deque<ast::ExprPtr> given; ///< the syntax of `-D`, which the code refers to as it does to the file's
 };
 
@@ -107,6 +108,9 @@ private:
     void item(const ast::Block& item, Span span, const Into& into);
     void item(const ast::Field& item, Span span, const Into& into);
     void item(const ast::Child& item, Span span, const Into& into);
+    // check_tables.cpp
+    void item(const ast::Table& item, Span span, const Into& into);
+    void rows_one_by_one(const TextTable& table, std::size_t begin, std::size_t end, const Into& into);
     bool unassigned_field(const ast::Expr& value, const Into& into);
     bool statement(const ast::Child& item, const Into& into);
     void misplaced(Span span, std::string_view what, const Around& around);
@@ -200,6 +204,8 @@ private:
     Names names_;
     std::deque<FunctionCode> functions_;
     std::deque<ast::ExprPtr> given_;
+    std::deque<ast::File> expanded_;
+    bool item_reported_ = false; ///< of the item before the one that is checked now
     const std::unordered_set<std::string>* lost_names_ = nullptr;
     bool unused_is_known_ = true; ///< no use of a name went unseen
     ast::Unit world_unit_ = ast::Unit::m;

@@ -110,6 +110,13 @@ struct FieldCode {
 struct ChildCode {
     CodePtr value;
 };
+/// Rows of a table, from `begin` to `end`.
+struct RowsCode {
+    std::shared_ptr<const TextTable> table;
+    const Code* first;             ///< makes the first row's thing
+    const ast::Construct* written; ///< what that was made of
+    std::size_t begin, end;
+};
 struct ForCode {
     CodePtr range;
     BodyCode body; ///< cell 0 is the variable
@@ -127,7 +134,7 @@ struct PrintCode {
     CodePtr value;
 };
 struct ItemCode {
-    std::variant<FieldCode, ChildCode, ForCode, IfCode, AssertCode, PrintCode> node;
+    std::variant<FieldCode, ChildCode, RowsCode, ForCode, IfCode, AssertCode, PrintCode> node;
 };
 
 struct Code {

@@ -74,6 +74,7 @@ public:
 
     void add(Diagnostic diagnostic);
 
+    std::size_t count() const { return all_.size(); }
     bool has_errors() const { return errors_ > 0; }
     std::size_t error_count() const { return errors_; }
     bool has_errors_within(Span span) const;

@@ -1,5 +1,7 @@
 #include "lang/dump.h"
 
+#include "lang/text_table.h"
+
 #include <fmt/format.h>
 
 #include <iterator>
@@ -183,6 +185,7 @@ public:
     }
     void operator()(const ast::Block& node) { body("block", node.body); }
     void operator()(const ast::Field& node) { labelled("field " + node.name.text, *node.value); }
+    void operator()(const ast::Table& table) { line("{} more", table.rows->rows() - 1); }
     void operator()(const ast::Child& node) { labelled("child", *node.value); }
 
 private:

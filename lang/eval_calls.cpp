@@ -30,9 +30,14 @@ Value Evaluator::run(const code::BuiltinCall& node, Span span, const FramePtr& f
     if (!complete) {
         return failed();
     }
-    if (tracing() && node.overload->needs_constants &&
+    if (has_unknowns() && node.overload->needs_constants &&
         !std::all_of(arguments.begin(), arguments.end(), is_known)) {
         return depends_on_surface(span, "this transform", "transforms are known before a ray is cast");
+    }
+    if (tracing() && !node.overload->per_point &&
+        !std::all_of(arguments.begin(), arguments.end(), is_known)) {
+        return depends_on_surface(span, "this argument",
+                                  "`random` and `noise` of a surface are not supported yet");
     }
     BuiltinRun run{math_, report_, span};
     return node.overload->run(run, arguments);
@@ -126,7 +131,7 @@ Value Evaluator::call(const FunctionCode& function, const FramePtr& frame, std::
         stop(Diag::calls_too_deep, span, limits_.call_depth);
         return failed();
     }
-    if (tracing() && unknown_conditions_ > 0 && recurses_by_surface(function)) {
+    if (has_unknowns() && unknown_conditions_ > 0 && recurses_by_surface(function)) {
         report_.report(Diag::surface_recursion, span, function.name);
         stopped_ = true;
         return failed();

@@ -58,12 +58,28 @@ Value Evaluator::eval(const Code& code, const FramePtr& frame) {
     return std::visit([&](const auto& node) { return run(node, code.span, frame); }, code.node);
 }
 
+/// What is only needed where an unknown condition holds, or where it does not.
+Value Evaluator::eval_where(const Scalar& condition, bool holds, const Code& code, const FramePtr& frame) {
+    ++unknown_conditions_;
+    math_.builder()->enter(condition.symbol, holds);
+    Value value = eval(code, frame);
+    math_.builder()->leave();
+    --unknown_conditions_;
+    return value;
+}
+
 /// A value that needs itself finds an ErrorValue, which the checker has explained.
 Value Evaluator::cell(const FramePtr& frame, std::uint32_t index) {
     if (!frame->cells[index].ready) {
+        if (recording() && !frame->is_rehearsed) {
+            return cell_outside(frame, index);
+        }
+        if (tried_cells_ != nullptr) {
+            tried_cells_->emplace_back(frame, index);
+        }
         frame->set(index, failed());
         report_.enter_definition(frame->depth);
-        frame->set(index, eval(*(*frame->code)[index], frame));
+        frame->set(index, recording() ? cell_inside(frame, index) : eval(*(*frame->code)[index], frame));
         report_.leave();
     }
     return frame->cells[index].value;
@@ -118,9 +134,7 @@ Value Evaluator::logical(const code::Binary& node, const FramePtr& frame) {
     if (first->v.is_constant()) {
         return (first->v.value != 0) == is_and ? eval(*node.right, frame) : left;
     }
-    ++unknown_conditions_;
-    const Value right = eval(*node.right, frame);
-    --unknown_conditions_;
+    const Value right = eval_where(first->v, is_and, *node.right, frame);
     const auto* second = std::get_if<BoolValue>(&right.v);
     if (!second) {
         return failed();
@@ -148,6 +162,10 @@ Value Evaluator::operate(const code::Binary& node, const Value& left, const Valu
     if (divides && has_zero(components(right))) {
         report_.report(Diag::division_by_zero, node.right->span);
         return failed();
+    }
+    const Components divisor = divides ? components(right) : Components{};
+    for (std::size_t i = 0; i < divisor.count; ++i) {
+        math_.require(ScalarOp::ne, divisor.v[i], {0});
     }
     return binary(math_, node.op, left, right);
 }
@@ -203,10 +221,8 @@ Value Evaluator::run(const code::Conditional& node, Span span, const FramePtr& f
     if (truth->v.is_constant()) {
         return eval(truth->v.value != 0 ? *node.yes : *node.no, frame);
     }
-    ++unknown_conditions_;
-    const Value yes = eval(*node.yes, frame);
-    const Value no = eval(*node.no, frame);
-    --unknown_conditions_;
+    const Value yes = eval_where(truth->v, true, *node.yes, frame);
+    const Value no = eval_where(truth->v, false, *node.no, frame);
     return is_error(yes) || is_error(no) ? failed() : select(truth->v, yes, no, span);
 }
 
@@ -249,6 +265,11 @@ Value Evaluator::run(const code::Index& node, Span, const FramePtr& frame) {
     }
     const std::vector<Value>& list = *std::get<ListPtr>(object.v);
     const Scalar& index = std::get<NumberValue>(position.v).v;
+    if (recording() && !index.is_constant()) {
+        if (std::optional<Value> element = recorded_element(list, index)) {
+            return *element;
+        }
+    }
     if (!index.is_constant()) {
         return depends_on_surface(node.index->span, "this index", "a list takes a known index");
     }

@@ -1,4 +1,5 @@
 #include "lang/evaluator.h"
+#include "lang/limits.h"
 #include "lang/transforms.h"
 #include "lang/wording.h"
 
@@ -11,17 +12,6 @@ namespace {
 /// Digits that are lost in undoing a transform are those of its condition; half of a double's are left at
 /// this one.
 constexpr double worst_condition = 1e8;
-
-bool is_square(double value) {
-    const double root = std::round(std::sqrt(value));
-    return root * root == value;
-}
-
-bool component_within(const Limits& limits, double value) {
-    const bool above = limits.min_excluded ? value > limits.min : value >= limits.min;
-    return above && value <= limits.max && (!limits.integer || std::floor(value) == value) &&
-           (!limits.square || is_square(value));
-}
 
 bool within(const Limits& limits, const Components& parts) {
     bool nonzero = false;
@@ -84,6 +74,9 @@ bool Evaluator::check_number(const Field& field, const Value& value, const Code&
     const Components parts = components(value);
     if (parts.count == 0 || parts.kind == TypeKind::boolean) {
         return true;
+    }
+    if (recording() && !is_constant(parts)) {
+        return require_within(field, parts);
     }
     // Of a vector that is written out, the first component that is wrong.
     const auto* written = std::get_if<code::Tuple>(&code.node);

@@ -1,4 +1,5 @@
 #include "lang/evaluator.h"
+#include "lang/rows.h"
 #include "lang/wording.h"
 
 #include <algorithm>
@@ -26,6 +27,10 @@ std::vector<ThingPtr> Evaluator::run(const BodyCode& file, const FramePtr& globa
 Value Evaluator::run(const code::Construct& node, Span span, const FramePtr& frame) {
     if (tracing()) {
         report_.report(Diag::shape_per_point, node.name_span, described(node.constructor->type));
+        return failed();
+    }
+    if (recording() && node.constructor->takes_children) {
+        cannot_record();
         return failed();
     }
     auto thing = std::make_shared<Thing>();
@@ -74,6 +79,10 @@ void Evaluator::item(const FieldCode& item, const FramePtr& frame, const Target&
         *target.is_sound = false;
         return;
     }
+    if (recording() && !is_recordable(value)) {
+        cannot_record();
+        return;
+    }
     target.fields->push_back({item.field->name, std::move(value), item.name_span, item.value->span});
 }
 
@@ -91,9 +100,13 @@ void Evaluator::add_child(const Value& value, Span span, const Target& target) {
             add_child((**list)[i], span, target);
         }
     } else if (const auto* thing = std::get_if<ThingPtr>(&value.v)) {
-        if (++children_ > limits_.list_length) {
+        children_ += count_of(**thing);
+        if (children_ > limits_.list_length) {
             stop(Diag::list_too_long, span, limits_.list_length);
             return;
+        }
+        if (recording()) {
+            record_child(**thing);
         }
         target.children->push_back(*thing);
     }
@@ -102,26 +115,41 @@ void Evaluator::add_child(const Value& value, Span span, const Target& target) {
 void Evaluator::item(const ForCode& item, const FramePtr& frame, const Target& target) {
     const Value range = eval(*item.range, frame);
     *target.is_sound = *target.is_sound && !std::holds_alternative<ErrorValue>(range.v);
+    if (recording()) {
+        recorded_loop(item, range, frame, target);
+        return;
+    }
     Value current;
     report_.enter_loop(item.span, item.variable, &current);
-    FramePtr inner;
-    iterate(range, item.range->span, [&](const Value& value) {
-        current = value;
-        if (!inner || inner.use_count() > 1) { // kept by a function value of an earlier round
-            inner = make_frame(frame, item.body.cells);
-        }
-        for (Frame::Cell& cell : inner->cells) {
-            cell.ready = false;
-        }
-        inner->set(0, value);
-        items(item.body.items, inner, target);
-    });
+    if (!run_recorded(item, range, frame, current, target)) {
+        FramePtr inner;
+        iterate(range, item.range->span, [&](const Value& value) {
+            current = value;
+            round(item, value, frame, inner, target);
+        });
+    }
     report_.leave();
+}
+
+/// `inner` is the frame of an earlier round, or null.
+void Evaluator::round(const ForCode& item, const Value& value, const FramePtr& frame, FramePtr& inner,
+                      const Target& target) {
+    if (!inner || inner.use_count() > 1) { // kept by a function value of an earlier round
+        inner = make_frame(frame, item.body.cells);
+    }
+    for (Frame::Cell& cell : inner->cells) {
+        cell.ready = false;
+    }
+    inner->set(0, value);
+    items(item.body.items, inner, target);
 }
 
 void Evaluator::item(const IfCode& item, const FramePtr& frame, const Target& target) {
     const Value condition = eval(*item.condition, frame);
-    if (const auto* truth = std::get_if<BoolValue>(&condition.v)) {
+    const auto* truth = std::get_if<BoolValue>(&condition.v);
+    if (truth && !truth->v.is_constant()) {
+        cannot_record();
+    } else if (truth) {
         body(truth->v.value != 0 ? item.yes : item.no, frame, target);
     } else {
         *target.is_sound = false;
@@ -131,7 +159,7 @@ void Evaluator::item(const IfCode& item, const FramePtr& frame, const Target& ta
 void Evaluator::item(const AssertCode& item, const FramePtr& frame, const Target&) {
     const Value condition = eval(*item.condition, frame);
     const auto* truth = std::get_if<BoolValue>(&condition.v);
-    if (!truth || truth->v.value != 0) {
+    if (!truth || (recording() && math_.require(truth->v)) || (!recording() && truth->v.value != 0)) {
         return;
     }
     const Value text = eval(*item.text, frame);
@@ -142,6 +170,10 @@ void Evaluator::item(const AssertCode& item, const FramePtr& frame, const Target
 
 void Evaluator::item(const PrintCode& item, const FramePtr& frame, const Target&) {
     const Value value = eval(*item.value, frame);
+    if (recording()) {
+        cannot_record();
+        return;
+    }
     if (std::holds_alternative<ErrorValue>(value.v)) {
         return;
     }

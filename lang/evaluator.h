@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,9 +46,15 @@ private:
     void stop(Diag kind, Span span, std::uint64_t limit);
     Value failed() { return {ErrorValue{}}; }
     FramePtr make_frame(const FramePtr& outer, const std::vector<CodePtr>& cells) {
-        return std::make_shared<Frame>(outer, cells, outer->captured, report_.depth());
+        FramePtr frame = std::make_shared<Frame>(outer, cells, outer->captured, report_.depth());
+        frame->is_rehearsed = recording();
+        return frame;
     }
-    bool tracing() const { return math_.builder() != nullptr; }
+    /// A per-point function is being traced.
+    bool tracing() const { return math_.builder() != nullptr && !recording(); }
+    /// A loop's body is being recorded.
+    bool recording() const { return recording_ != nullptr; }
+    bool has_unknowns() const { return math_.builder() != nullptr; }
     Value depends_on_surface(Span span, std::string_view what, std::string_view rule);
 
     // eval_expressions.cpp
@@ -64,6 +71,7 @@ private:
     Value run(const code::Component& node, Span span, const FramePtr& frame);
     Value run(const code::SurfaceInput& node, Span span, const FramePtr& frame);
     Value run(const code::Index& node, Span span, const FramePtr& frame);
+    Value eval_where(const Scalar& condition, bool holds, const Code& code, const FramePtr& frame);
     Value logical(const code::Binary& node, const FramePtr& frame);
     Value operate(const code::Binary& node, const Value& left, const Value& right, Span span);
     Value select(const Scalar& condition, const Value& yes, const Value& no, Span span);
@@ -83,10 +91,13 @@ private:
     void items(const std::vector<ItemCode>& items, const FramePtr& frame, const Target& target);
     void item(const FieldCode& item, const FramePtr& frame, const Target& target);
     void item(const ChildCode& item, const FramePtr& frame, const Target& target);
+    void item(const RowsCode& item, const FramePtr& frame, const Target& target);
     void item(const ForCode& item, const FramePtr& frame, const Target& target);
     void item(const IfCode& item, const FramePtr& frame, const Target& target);
     void item(const AssertCode& item, const FramePtr& frame, const Target& target);
     void item(const PrintCode& item, const FramePtr& frame, const Target& target);
+    void round(const ForCode& item, const Value& value, const FramePtr& frame, FramePtr& inner,
+               const Target& target);
     void add_child(const Value& value, Span span, const Target& target);
     Param param(const ParamCode& code, const FramePtr& globals);
     /// Calls `each` with every value of a range or list until something stops the run.
@@ -97,6 +108,21 @@ private:
     bool check_field(const Field& field, const Value& value, const Code& code);
     bool check_number(const Field& field, const Value& value, const Code& code);
     bool check_transform(const TransformValue& transform, Span span);
+
+    // eval_loops.cpp
+    struct Recording;
+    struct RecordedLoop;
+    bool run_recorded(const ForCode& item, const Value& range, const FramePtr& frame, Value& current,
+                      const Target& target);
+    std::optional<RecordedLoop> record(const ForCode& item, const RangeValue& range, const FramePtr& frame);
+    void recorded_loop(const ForCode& item, const Value& range, const FramePtr& frame, const Target& target);
+    Value cell_outside(const FramePtr& frame, std::uint32_t index);
+    Value cell_inside(const FramePtr& frame, std::uint32_t index);
+    void cannot_record();
+    static bool is_recordable(const Value& value);
+    void record_child(const Thing& thing);
+    std::optional<Value> recorded_element(const std::vector<Value>& list, const Scalar& index);
+    bool require_within(const Field& field, const Components& parts);
 
     struct Activation {
         const FunctionCode* function;
@@ -115,6 +141,9 @@ private:
     std::vector<Activation> calls_;
     const std::vector<ThingPtr>* siblings_ = nullptr; ///< of a thing that is built now
     std::vector<std::string> prints_;
+    Recording* recording_ = nullptr; ///< of a loop's body, while it is recorded
+    std::vector<std::pair<FramePtr, std::uint32_t>>* tried_cells_ =
+        nullptr; ///< those that may have to be forgotten
 };
 
 template <class Each>

@@ -39,6 +39,7 @@ struct Frame {
     std::vector<Cell> cells;
     std::size_t depth; ///< of RunReport, where it was made
     bool is_captured = false;
+    bool is_rehearsed = false; ///< made while a loop's body is recorded
 
     Frame(FramePtr outer, const std::vector<CodePtr>& cell_code, CapturedFrames* captured_frames,
           std::size_t report_depth)

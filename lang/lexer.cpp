@@ -12,8 +12,11 @@ namespace {
 
 class Lexer {
 public:
-    Lexer(const SourceFile& source, FileId file, Diagnostics& diagnostics)
-        : text_(source.text()), file_(file), diagnostics_(diagnostics) {}
+    Lexer(const SourceFile& source, FileId file, const std::vector<Span>& left_out, Diagnostics& diagnostics)
+        : text_(source.text()), file_(file), left_out_(left_out), diagnostics_(diagnostics) {}
+    Lexer(const SourceFile& source, Span span, const std::vector<Span>& left_out, Diagnostics& diagnostics)
+        : text_(source.text().substr(0, span.end)), file_(span.file), left_out_(left_out),
+          diagnostics_(diagnostics), pos_(span.begin) {}
 
     std::vector<Token> run();
 
@@ -41,6 +44,7 @@ private:
     }
 
     void check_encoding();
+    void skip_left_out();
     void token();
     void word();
     void line_comment();
@@ -61,18 +65,24 @@ private:
 
     std::string_view text_;
     FileId file_;
+    const std::vector<Span>& left_out_;
     Diagnostics& diagnostics_;
     std::vector<Token> tokens_;
     std::size_t pos_ = 0;
+    std::size_t next_left_out_ = 0;
     bool line_start_ = true;
     bool is_utf8_ = true;
 };
 
 std::vector<Token> Lexer::run() {
     constexpr std::size_t usual_bytes_per_token = 4;
-    tokens_.reserve(text_.size() / usual_bytes_per_token + 1);
+    std::size_t bytes = text_.size() - pos_;
+    for (const Span& span : left_out_) {
+        bytes -= span.end - span.begin;
+    }
+    tokens_.reserve(bytes / usual_bytes_per_token + 1);
     check_encoding();
-    if (text_.starts_with("\xEF\xBB\xBF")) {
+    if (pos_ == 0 && text_.starts_with("\xEF\xBB\xBF")) {
         pos_ = 3;
     }
     while (!at_end()) {
@@ -82,9 +92,20 @@ std::vector<Token> Lexer::run() {
     return std::move(tokens_);
 }
 
+/// Lines within a comment are passed over by the comment.
+void Lexer::skip_left_out() {
+    while (next_left_out_ < left_out_.size() && left_out_[next_left_out_].begin < pos_) {
+        ++next_left_out_;
+    }
+    if (next_left_out_ < left_out_.size() && left_out_[next_left_out_].begin == pos_) {
+        pos_ = left_out_[next_left_out_].end;
+    }
+}
+
 void Lexer::check_encoding() {
-    const std::size_t malformed = find_malformed(text_);
+    std::size_t malformed = find_malformed(text_.substr(pos_));
     if (malformed != std::string_view::npos) {
+        malformed += pos_;
         is_utf8_ = false;
         const unsigned byte = static_cast<unsigned char>(text_[malformed]);
         diagnostics_.report(Diag::bad_utf8, span(malformed, malformed + 1), byte);
@@ -102,6 +123,7 @@ void Lexer::token() {
     case '\n':
         ++pos_;
         line_start_ = true;
+        skip_left_out();
         return;
     case '/':
         if (peek(1) == '/') {
@@ -425,7 +447,17 @@ std::string string_value(std::string_view literal) {
 }
 
 std::vector<Token> lex(const SourceSet& sources, FileId file, Diagnostics& diagnostics) {
-    return Lexer(sources.file(file), file, diagnostics).run();
+    return lex_around(sources, file, {}, diagnostics);
+}
+
+std::vector<Token> lex_around(const SourceSet& sources, FileId file, const std::vector<Span>& left_out,
+                              Diagnostics& diagnostics) {
+    return Lexer(sources.file(file), file, left_out, diagnostics).run();
+}
+
+std::vector<Token> lex_within(const SourceSet& sources, Span span, Diagnostics& diagnostics) {
+    const std::vector<Span> nothing;
+    return Lexer(sources.file(span.file), span, nothing, diagnostics).run();
 }
 
 } // namespace scc::lang

@@ -31,6 +31,11 @@ struct Token {
 /// Splits a file into tokens, the last of which is end_of_file. Never stops at a mistake: what cannot be read
 /// is reported and becomes a token of kind `error`. Line ends are not tokens; the parser asks `starts_line`.
 std::vector<Token> lex(const SourceSet& sources, FileId file, Diagnostics& diagnostics);
+/// Leaves out these lines, each of which lies whole in the text, in ascending order.
+std::vector<Token> lex_around(const SourceSet& sources, FileId file, const std::vector<Span>& left_out,
+                              Diagnostics& diagnostics);
+/// Only what lies in the span.
+std::vector<Token> lex_within(const SourceSet& sources, Span span, Diagnostics& diagnostics);
 
 /// What a string literal stands for: without its quotes and with escapes resolved. The closing quote may
 /// lack.

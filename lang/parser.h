@@ -24,6 +24,10 @@ ast::File parse(const SourceSet& sources, FileId file, const std::vector<Token>&
 /// lex and parse in one go.
 std::shared_ptr<const ast::File> parse_file(const SourceSet& sources, FileId file, Diagnostics& diagnostics);
 
+/// parse_file for what is to be evaluated: long runs of lines that differ in numbers only are read as tables,
+/// which gives the same in much less time. The tree is to outlive what is made of it.
+std::shared_ptr<const ast::File> read_file(const SourceSet& sources, FileId file, Diagnostics& diagnostics);
+
 /// A single expression from its own file (the value of a `-D`).
 ast::ExprPtr parse_expression(const SourceSet& sources, FileId file, Diagnostics& diagnostics);
 

@@ -1,6 +1,7 @@
 #include "lang/run_report.h"
 
 #include "lang/check.h"
+#include "lang/rows.h"
 #include "lang/schema.h"
 
 #include <algorithm>
@@ -25,15 +26,27 @@ std::string own_name(const Thing& thing) {
     return thing.name.empty() ? std::string(thing.constructor->name) : thing.name;
 }
 
+std::size_t count_if_named(const Thing& thing, const std::string& name) {
+    if (!thing.rows) {
+        return thing.constructor->type == TypeKind::shape && own_name(thing) == name ? 1 : 0;
+    }
+    std::size_t in_round = 0;
+    for (const ThingPtr& one : thing.rows->things) {
+        in_round += count_if_named(*one, name);
+    }
+    return in_round * thing.rows->count;
+}
+
 /// The thing's part of a path, numbered from the second of its name on.
 std::string numbered_name(const Thing& thing, const std::vector<ThingPtr>* siblings) {
     const std::string name = own_name(thing);
     if (!siblings) {
         return name;
     }
-    const auto same = std::count_if(siblings->begin(), siblings->end(), [&](const ThingPtr& sibling) {
-        return sibling->constructor->type == TypeKind::shape && own_name(*sibling) == name;
-    });
+    std::size_t same = 0;
+    for (const ThingPtr& sibling : *siblings) {
+        same += count_if_named(*sibling, name);
+    }
     return same == 0 ? name : fmt::format("{}[{}]", name, same);
 }
 

@@ -21,6 +21,10 @@ class RunReport {
 public:
     template <class... Args>
     void report(Diag kind, Span span, const Args&... args) {
+        if (rehearsal_ != nullptr) {
+            *rehearsal_ = true;
+            return;
+        }
         Entry& entry = find(kind, span);
         if (entry.count++ == 0) {
             entry.arguments = {fmt::format("{}", args)...};
@@ -46,6 +50,9 @@ public:
     }
     void leave() { contexts_.pop_back(); }
     std::size_t depth() const { return contexts_.size(); }
+
+    /// While something is evaluated to find out about it, reports only set this; null ends that.
+    bool* rehearse(bool* reported) { return std::exchange(rehearsal_, reported); }
 
     /// Hands everything over, in the order in which it happened first.
     void flush(Diagnostics& diagnostics);
@@ -75,6 +82,7 @@ private:
     std::vector<Entry> entries_;
     std::map<std::array<std::uint64_t, 4>, std::size_t> index_;
     std::vector<Context> contexts_;
+    bool* rehearsal_ = nullptr;
 };
 
 } // namespace scc::lang

@@ -1,95 +1,62 @@
 #include "lang/scalar_math.h"
 
+#include "lang/scalar_fold.h"
+
+#include <algorithm>
 #include <array>
-#include <cmath>
+#include <utility>
 
 namespace scc::lang {
 namespace {
 
-constexpr std::array<std::string_view, 31> names{
-    "neg",  "add",  "sub", "mul", "div", "mod",         "pow",        "min",         "max",   "abs", "floor",
-    "ceil", "sqrt", "sin", "cos", "tan", "asin",        "acos",       "atan2",       "exp",   "log", "eq",
-    "ne",   "lt",   "le",  "gt",  "ge",  "logical_and", "logical_or", "logical_not", "select"};
+constexpr std::array<std::string_view, scalar_op_count> names{
+    "neg",         "add",        "sub",         "mul",    "div",    "mod",  "pow", "min",  "max",
+    "abs",         "floor",      "ceil",        "sqrt",   "sin",    "cos",  "tan", "asin", "acos",
+    "atan2",       "exp",        "log",         "eq",     "ne",     "lt",   "le",  "gt",   "ge",
+    "logical_and", "logical_or", "logical_not", "select", "random", "noise"};
 
-/// The remainder with the sign of the divisor; exact, unlike a - b * floor(a / b).
-double floored_mod(double a, double b) {
-    const double rest = std::fmod(a, b);
-    return rest != 0 && (rest < 0) != (b < 0) ? rest + b : rest;
+using Fold = double (*)(double, double, double);
+
+template <std::size_t... op>
+constexpr std::array<Fold, scalar_op_count> make_folds(std::index_sequence<op...>) {
+    return {fold<static_cast<ScalarOp>(op)>...};
 }
+constexpr std::array<Fold, scalar_op_count> folds = make_folds(std::make_index_sequence<scalar_op_count>{});
 
-double truth(bool value) {
-    return value ? 1 : 0;
-}
-
-double fold(ScalarOp op, double a, double b) {
-    switch (op) {
-    case ScalarOp::neg:
-        return -a;
-    case ScalarOp::add:
-        return a + b;
-    case ScalarOp::sub:
-        return a - b;
-    case ScalarOp::mul:
-        return a * b;
-    case ScalarOp::div:
-        return a / b;
-    case ScalarOp::mod:
-        return floored_mod(a, b);
-    case ScalarOp::pow:
-        return std::pow(a, b);
-    case ScalarOp::min:
-        return b < a ? b : a;
-    case ScalarOp::max:
-        return b > a ? b : a;
-    case ScalarOp::abs:
-        return std::abs(a);
-    case ScalarOp::floor:
-        return std::floor(a);
-    case ScalarOp::ceil:
-        return std::ceil(a);
-    case ScalarOp::sqrt:
-        return std::sqrt(a);
-    case ScalarOp::sin:
-        return std::sin(a);
-    case ScalarOp::cos:
-        return std::cos(a);
-    case ScalarOp::tan:
-        return std::tan(a);
-    case ScalarOp::asin:
-        return std::asin(a);
-    case ScalarOp::acos:
-        return std::acos(a);
-    case ScalarOp::atan2:
-        return std::atan2(a, b);
-    case ScalarOp::exp:
-        return std::exp(a);
-    case ScalarOp::log:
-        return std::log(a);
-    case ScalarOp::eq:
-        return truth(a == b);
-    case ScalarOp::ne:
-        return truth(a != b);
-    case ScalarOp::lt:
-        return truth(a < b);
-    case ScalarOp::le:
-        return truth(a <= b);
-    case ScalarOp::gt:
-        return truth(a > b);
-    case ScalarOp::ge:
-        return truth(a >= b);
-    case ScalarOp::logical_and:
-        return a * b;
-    case ScalarOp::logical_or:
-        return a > b ? a : b;
-    case ScalarOp::logical_not:
-        return 1 - a;
-    case ScalarOp::select:
-        break; // has three operands
-    }
-    return std::nan("");
+double folded(ScalarOp op, const Scalar& a, const Scalar& b, const Scalar& c) {
+    return folds[static_cast<std::size_t>(op)](a.value, b.value, c.value);
 }
 
 } // namespace
+
+ScalarOp scalar_op(std::string_view name) {
+    return static_cast<ScalarOp>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+int arity(ScalarOp op) {
+    switch (op) {
+    case ScalarOp::neg:
+    case ScalarOp::abs:
+    case ScalarOp::floor:
+    case ScalarOp::ceil:
+    case ScalarOp::sqrt:
+    case ScalarOp::sin:
+    case ScalarOp::cos:
+    case ScalarOp::tan:
+    case ScalarOp::asin:
+    case ScalarOp::acos:
+    case ScalarOp::exp:
+    case ScalarOp::log:
+    case ScalarOp::logical_not:
+        return 1;
+    case ScalarOp::select:
+    case ScalarOp::random:
+    case ScalarOp::noise:
+        return 3;
+    default:
+        return 2;
+    }
+}
 
 std::string_view name_of(ScalarOp op) {
     return names[static_cast<std::size_t>(op)];
@@ -101,17 +68,39 @@ std::uint32_t ScalarMath::symbol(const Scalar& scalar) {
 
 Scalar ScalarMath::apply(ScalarOp op, const Scalar& a) {
     if (a.is_constant()) {
-        return {fold(op, a.value, 0)};
+        return {folded(op, a, {}, {})};
     }
     return {0, builder_->apply(name_of(op), {symbol(a)})};
 }
 
 Scalar ScalarMath::apply(ScalarOp op, const Scalar& a, const Scalar& b) {
     if (a.is_constant() && b.is_constant()) {
-        return {fold(op, a.value, b.value)};
+        return {folded(op, a, b, {})};
     }
     const std::uint32_t left = symbol(a); // before the right one: builders number their nodes
     return {0, builder_->apply(name_of(op), {left, symbol(b)})};
+}
+
+Scalar ScalarMath::apply(ScalarOp op, const Scalar& a, const Scalar& b, const Scalar& c) {
+    if (a.is_constant() && b.is_constant() && c.is_constant()) {
+        return {folded(op, a, b, c)};
+    }
+    const std::uint32_t first = symbol(a);
+    const std::uint32_t second = symbol(b);
+    return {0, builder_->apply(name_of(op), {first, second, symbol(c)})};
+}
+
+bool ScalarMath::require(ScalarOp op, const Scalar& a, const Scalar& b) {
+    const bool matters = builder_ != nullptr && builder_->has_requirements();
+    return !matters || require(apply(op, a, b));
+}
+
+bool ScalarMath::require(const Scalar& condition) {
+    if (!condition.is_constant()) {
+        builder_->require(condition.symbol);
+        return true;
+    }
+    return condition.value != 0;
 }
 
 Scalar ScalarMath::select(const Scalar& condition, const Scalar& yes, const Scalar& no) {

@@ -9,6 +9,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -30,6 +31,7 @@ struct Scalar {
     friend bool operator==(const Scalar&, const Scalar&) = default;
 };
 
+struct ThingRows;
 struct Closure; // a function with the bindings it saw; private to the evaluator
 struct Thing;
 struct Value;
@@ -88,6 +90,7 @@ struct Thing {
     std::string name;               ///< of the `let` or `fn` that made it, else empty
     Span span;                      ///< of the constructor expression
     std::uint32_t height = 1;       ///< things that stand within each other, at most
+    std::shared_ptr<const ThingRows> rows; ///< of a thing that stands for many (see rows.h); else null
 
     const FieldValue* find(std::string_view field) const;
     /// The author's value, else the schema's default; null for an optional field that was not set.
@@ -104,6 +107,18 @@ public:
     virtual std::uint32_t input(std::string_view name) = 0;
     /// `op` is the operator's name as in the runtime's operator table (add, mod, floor, select, ...).
     virtual std::uint32_t apply(std::string_view op, const std::vector<std::uint32_t>& operands) = 0;
+
+    /// Whether what is required of unknown values matters; per-point functions go on with whatever comes out.
+    virtual bool has_requirements() const { return false; }
+    /// Where the condition is 0, something has to be reported.
+    virtual void require(std::uint32_t /*condition*/) {}
+    /// The element of a list of numbers that an unknown whole number chooses, if the builder can express that.
+    virtual std::optional<std::uint32_t> lookup(std::vector<double> /*list*/, std::uint32_t /*index*/) {
+        return std::nullopt;
+    }
+    /// What follows, up to `leave`, counts only where the condition holds (or where it does not).
+    virtual void enter(std::uint32_t /*condition*/, bool /*holds*/) {}
+    virtual void leave() {}
 };
 
 } // namespace scc::lang

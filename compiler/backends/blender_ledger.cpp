@@ -1,5 +1,7 @@
 #include "compiler/backends/blender_ledger.h"
 
+#include "compiler/ir/objects.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -62,9 +64,7 @@ public:
         : scene_(scene), needs_(needs), ledger_(ledger) {}
 
     void record() {
-        for (const ir::Object& object : scene_.objects) {
-            record(object);
-        }
+        ir::for_each_object(scene_, [&](const ir::Object& object) { record(object); });
         for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
             if (needs_.materials[i]) {
                 record(scene_.materials[i]);

@@ -1,6 +1,7 @@
 #include "compiler/backends/blender_needs.h"
 
 #include "compiler/bounds.h"
+#include "compiler/ir/objects.h"
 
 #include <algorithm>
 #include <array>
@@ -88,9 +89,7 @@ MirrorView sees_itself(const Shape& shape, const Vec3<double>& eye) {
 class Mirrors {
 public:
     explicit Mirrors(const ir::Scene& scene) : scene_(scene) {
-        for (const ir::Object& object : scene.objects) {
-            add(object);
-        }
+        ir::for_each_object(scene, [&](const ir::Object& object) { add(object); });
     }
 
     int bounces() const {
@@ -151,9 +150,7 @@ public:
     }
 
     BlenderNeeds find() {
-        for (const ir::Object& object : scene_.objects) {
-            add(object);
-        }
+        ir::for_each_object(scene_, [&](const ir::Object& object) { add(object); });
         for (const ir::Light& light : scene_.lights) {
             want("light");
             std::visit([&](const auto& l) { add(l); }, light.light);
@@ -265,11 +262,12 @@ private:
                 box.add(point->position);
             }
         }
-        for (const ir::Object& object : scene_.objects) {
-            if (const auto* plane = std::get_if<runtime::Plane<double>>(&object.shape)) {
-                box.add(foot(*plane, object.world_from_object, scene_.camera.eye));
+        ir::for_each_shape(scene_, [&]<class Shape>(const Shape& shape, const runtime::Affine<double>& place,
+                                                    const runtime::Sides&) {
+            if constexpr (std::is_same_v<Shape, runtime::Plane<double>>) {
+                box.add(foot(shape, place, scene_.camera.eye));
             }
-        }
+        });
         needs_.center = box.center();
         const double extent = length(box.max - needs_.center);
         needs_.extent = extent > 0 ? extent : 1;

@@ -3,6 +3,7 @@
 #include "compiler/backends/blender_function.h"
 #include "compiler/backends/blender_mesh.h"
 #include "compiler/backends/blender_python.h"
+#include "compiler/ir/objects.h"
 
 namespace scc::compiler {
 
@@ -167,7 +168,7 @@ private:
     void write_objects() {
         out_.line("OBJECTS = [");
         out_.indent();
-        for (const ir::Object& object : scene_.objects) {
+        ir::for_each_object(scene_, [&](const ir::Object& object) {
             std::string text = std::visit([&](const auto& shape) { return described(shape); }, object.shape);
             text += fmt::format(", name={}", python(object.path));
             const std::string front = python(scene_.materials[object.sides.front].name);
@@ -181,7 +182,7 @@ private:
                 text += fmt::format(", world={}", python(object.world_from_object));
             }
             out_.line("dict({}),", text);
-        }
+        });
         out_.dedent();
         out_.line("]");
     }

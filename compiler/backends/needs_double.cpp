@@ -1,6 +1,7 @@
 #include "compiler/backends/needs_double.h"
 
 #include "compiler/bounds.h"
+#include "compiler/ir/objects.h"
 
 #include <fmt/core.h>
 
@@ -43,34 +44,64 @@ double stretch_of(const runtime::Affine<double>& map) {
     return norm(map) * norm(inverse(map));
 }
 
+/// `path` is a function: few paths are asked for.
+template <class Path>
+std::optional<std::string> too_much(const std::optional<runtime::Bounds<double>>& own,
+                                    const runtime::Affine<double>& place, double stretch, double eye,
+                                    const Path& path) {
+    if (!(stretch <= most_stretched)) {
+        return fmt::format("the transform of `{}` stretches it by more than {} to 1", path(), most_stretched);
+    }
+    if (!own) {
+        return std::nullopt;
+    }
+    const runtime::Bounds<double> box = transform_bounds(place, *own);
+    const double away = std::max({eye, largest_coordinate(box.min), largest_coordinate(box.max)});
+    const double size = size_of(box);
+    if (!(away <= largest && size >= smallest)) {
+        return fmt::format("the numbers of `{}` are too large or too small for float", path());
+    }
+    if (!(away <= most_sizes_away * size)) {
+        return fmt::format("`{}` or the camera is more than {} times the object's size from the origin",
+                           path(), most_sizes_away);
+    }
+    return std::nullopt;
+}
+
+std::optional<std::string> too_much(const ir::ObjectColumn& column, const ir::Scene& scene, double eye) {
+    const double stretch = stretch_of(column.world_from_object);
+    return std::visit(
+        [&](const auto& shapes) {
+            std::optional<std::string> reason;
+            for (std::size_t round = 0; !reason && round < shapes.size(); ++round) {
+                reason = too_much(object_bounds(shapes[round], scene), column.world_from_object, stretch, eye,
+                                  [&] { return column.path_of(round); });
+            }
+            return reason;
+        },
+        column.shapes);
+}
+
 } // namespace
 
 std::optional<std::string> needs_double(const ir::Scene& scene) {
-    std::vector<runtime::Bounds<double>> mesh_boxes;
-    for (const ir::Mesh& mesh : scene.meshes) {
-        mesh_boxes.push_back(mesh.box);
-    }
     const double eye = largest_coordinate(scene.camera.eye);
-    for (const ir::Object& object : scene.objects) {
-        const auto* mesh = std::get_if<runtime::Mesh<double>>(&object.shape);
-        const auto own = mesh != nullptr ? mesh_boxes[mesh->mesh] : object_bounds(object.shape, scene);
-        if (!(stretch_of(object.world_from_object) <= most_stretched)) {
-            return fmt::format("the transform of `{}` stretches it by more than {} to 1", object.path,
-                               most_stretched);
-        }
-        if (!own) {
-            continue;
-        }
-        const runtime::Bounds<double> box = transform_bounds(object.world_from_object, *own);
-        const double away = std::max({eye, largest_coordinate(box.min), largest_coordinate(box.max)});
-        const double size = size_of(box);
-        if (!(away <= largest && size >= smallest)) {
-            return fmt::format("the numbers of `{}` are too large or too small for float", object.path);
-        }
-        if (!(away <= most_sizes_away * size)) {
-            return fmt::format("`{}` or the camera is more than {} times the object's size from the origin",
-                               object.path, most_sizes_away);
-        }
+    std::optional<std::string> reason;
+    ir::for_each_piece(
+        scene,
+        [&](const ir::Object& object) {
+            if (!reason) {
+                reason = too_much(object_bounds(object.shape, scene), object.world_from_object,
+                                  stretch_of(object.world_from_object), eye, [&] { return object.path; });
+            }
+        },
+        [&](const ir::ObjectArray& array) {
+            for (std::size_t i = 0; !reason && i < array.columns.size(); ++i) {
+                reason = too_much(array.columns[i], scene, eye);
+            }
+        });
+    if (reason) {
+        return reason;
     }
     for (const ir::Material& material : scene.materials) {
         const auto& shininess = material.phong.shininess;

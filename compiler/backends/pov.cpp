@@ -5,6 +5,7 @@
 #include "compiler/backends/pov_material.h"
 #include "compiler/backends/pov_shape.h"
 #include "compiler/backends/pov_text.h"
+#include "compiler/ir/objects.h"
 #include "compiler/writer.h"
 
 #include <fmt/core.h>
@@ -139,9 +140,7 @@ private:
             objects_.line("#declare {} = union {{", pov_objects_name);
             objects_.indent();
         }
-        for (const ir::Object& object : scene_.objects) {
-            emit_object(object);
-        }
+        ir::for_each_object(scene_, [&](const ir::Object& object) { emit_object(object); });
         if (in_union_) {
             objects_.dedent();
             objects_.line("}}");

@@ -2,6 +2,7 @@
 
 #include "compiler/backends/pov_text.h"
 #include "compiler/bounds.h"
+#include "compiler/ir/objects.h"
 
 #include <fmt/core.h>
 
@@ -45,14 +46,14 @@ double plane_distance(const runtime::Plane<double>& plane, const Affine<double>&
 double extent_of(const ir::Scene& scene, Bounds<double>& around) {
     double planes = 0;
     around.add(scene.camera.eye);
-    for (const ir::Object& object : scene.objects) {
-        if (const auto bounds = object_bounds(object.shape, scene)) {
-            around.add(transform_bounds(object.world_from_object, *bounds));
-        } else {
-            planes = std::max(planes, plane_distance(std::get<runtime::Plane<double>>(object.shape),
-                                                     object.world_from_object, scene.camera.eye));
-        }
-    }
+    ir::for_each_shape(
+        scene, [&]<class Shape>(const Shape& shape, const Affine<double>& place, const runtime::Sides&) {
+            if constexpr (std::is_same_v<Shape, runtime::Plane<double>>) {
+                planes = std::max(planes, plane_distance(shape, place, scene.camera.eye));
+            } else {
+                around.add(transform_bounds(place, *object_bounds(shape, scene)));
+            }
+        });
     const double bounded = size_of(around);
     return bounded > 0 ? bounded : planes;
 }

@@ -3,6 +3,7 @@
 #include "compiler/backends/attenuation_fit.h"
 #include "compiler/backends/pov_text.h"
 #include "compiler/backends/surface_distance.h"
+#include "compiler/ir/objects.h"
 
 #include <fmt/core.h>
 
@@ -133,7 +134,7 @@ private:
 } // namespace
 
 bool needs_object_union(const ir::Scene& scene) {
-    return scene.settings.shadows && has_highlights(scene) && !scene.objects.empty() &&
+    return scene.settings.shadows && has_highlights(scene) && ir::object_count(scene) > 0 &&
            std::any_of(scene.lights.begin(), scene.lights.end(), [](const ir::Light& light) {
                return std::visit([](const auto& l) { return !(l.diffuse == l.specular); }, light.light);
            });

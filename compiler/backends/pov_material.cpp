@@ -1,6 +1,7 @@
 #include "compiler/backends/pov_material.h"
 
 #include "compiler/backends/pov_frame.h"
+#include "compiler/ir/objects.h"
 
 #include <fmt/core.h>
 
@@ -40,11 +41,11 @@ PovMaterials::PovMaterials(const ir::Scene& scene, Writer& functions, Writer& te
     for (InputRanges& ranges : ranges_) {
         ranges.fill({inf, -inf});
     }
-    for (const ir::Object& object : scene.objects) {
+    ir::for_each_object(scene, [&](const ir::Object& object) {
         const InputRanges ranges = input_ranges(object, scene);
         include(ranges_[object.sides.front], ranges);
         include(ranges_[object.sides.back], ranges);
-    }
+    });
 }
 
 bool PovMaterials::reads(std::uint32_t material, ir::Input first, ir::Input last) const {

@@ -1,5 +1,6 @@
 #include "compiler/backends/surface_distance.h"
 
+#include "compiler/ir/objects.h"
 #include "runtime/bounds.h"
 
 #include <algorithm>
@@ -174,11 +175,11 @@ struct Measure {
 
 DistanceRange surface_distances(const ir::Scene& scene, const Point& point) {
     DistanceRange range{INFINITY, 0};
-    for (const ir::Object& object : scene.objects) {
-        Measure measure{scene, object.world_from_object, point, range};
-        std::visit(measure, object.shape);
+    ir::for_each_shape(scene, [&](const auto& shape, const Affine<double>& place, const runtime::Sides&) {
+        Measure measure{scene, place, point, range};
+        measure(shape);
         range = measure.range;
-    }
+    });
     // A little more, for the rounding on the way.
     return range.near <= range.far ? DistanceRange{range.near * (1 - 1e-9), range.far * (1 + 1e-9)}
                                    : DistanceRange{0, 1};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "compiler/ir/objects.h"
 #include "compiler/ir/scene.h"
 #include "runtime/math/affine.h"
 #include "runtime/scene.h"
@@ -91,23 +92,19 @@ runtime::Mesh<R> convert(const runtime::Mesh<double>& mesh, R) {
 /// Calls `visit` with the Bare or Placed primitive of every object, in the order of their ids.
 template <class R, class Visit>
 void for_each_primitive(const ir::Scene& scene, Visit visit) {
-    for (std::uint32_t id = 0; id < scene.objects.size(); ++id) {
-        const ir::Object& object = scene.objects[id];
-        const runtime::Tag tag{id, object.sides};
-        std::visit(
-            [&](const auto& source) {
-                const auto shape = convert(source, R{});
-                using Shape = std::remove_const_t<decltype(shape)>;
-                if (object.world_from_object == runtime::Affine<double>{}) {
-                    visit(runtime::Bare<Shape>{shape, tag});
-                } else {
-                    visit(runtime::Placed<Shape, R>{
-                        shape, runtime::affine_cast<R>(object.world_from_object),
-                        runtime::affine_cast<R>(inverse(object.world_from_object)), tag});
-                }
-            },
-            object.shape);
-    }
+    std::uint32_t id = 0;
+    ir::for_each_shape(
+        scene, [&](const auto& source, const runtime::Affine<double>& place, const runtime::Sides& sides) {
+            const runtime::Tag tag{id++, sides};
+            const auto shape = convert(source, R{});
+            using Shape = std::remove_const_t<decltype(shape)>;
+            if (place == runtime::Affine<double>{}) {
+                visit(runtime::Bare<Shape>{shape, tag});
+            } else {
+                visit(runtime::Placed<Shape, R>{shape, runtime::affine_cast<R>(place),
+                                                runtime::affine_cast<R>(inverse(place)), tag});
+            }
+        });
 }
 
 /// The lights of one kind, in source order.

@@ -40,7 +40,15 @@ std::string read_text_file(const std::string& path) {
         throw host::FileError(fmt::format("cannot read `{}`: it is larger than 1 GiB", path));
     }
     std::ifstream stream(path, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    std::string text;
+    constexpr std::size_t piece = std::size_t{1} << 22; // a pipe does not say how much it holds
+    for (std::size_t size = fs::is_regular_file(status) ? fs::file_size(path, error) + 1 : piece;
+         stream.good(); size = piece) {
+        const std::size_t begin = text.size();
+        text.resize(begin + size);
+        stream.read(text.data() + begin, static_cast<std::streamsize>(size));
+        text.resize(begin + static_cast<std::size_t>(stream.gcount()));
+    }
     if (!stream.is_open() || stream.bad()) {
         throw host::FileError(fmt::format("cannot read `{}`", path));
     }
@@ -101,8 +109,12 @@ void timed(Loaded& loaded, const char* stage, Run run) {
 Loaded load(const SceneOptions& options, Stage last) {
     Loaded loaded;
     const std::vector<lang::Definition> definitions = parse_definitions(options.definitions);
-    const lang::FileId file = loaded.sources.add(options.file, read_text_file(options.file));
     timed(loaded, "parse", [&] {
+        const lang::FileId file = loaded.sources.add(options.file, read_text_file(options.file));
+        if (last >= Stage::module) {
+            loaded.tree = lang::read_file(loaded.sources, file, loaded.diagnostics);
+            return;
+        }
         loaded.tokens = lang::lex(loaded.sources, file, loaded.diagnostics);
         if (last != Stage::tokens) {
             loaded.tree = std::make_shared<const lang::ast::File>(

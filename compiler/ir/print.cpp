@@ -1,5 +1,6 @@
 #include "compiler/ir/print.h"
 
+#include "compiler/ir/objects.h"
 #include "compiler/ir/traits.h"
 #include "compiler/writer.h"
 
@@ -173,9 +174,7 @@ std::string print(const Scene& scene) {
     for (const Material& material : scene.materials) {
         print_material(out, material, scene);
     }
-    for (const Object& object : scene.objects) {
-        print_object(out, object, scene);
-    }
+    for_each_object(scene, [&](const Object& object) { print_object(out, object, scene); });
     return out.take();
 }
 

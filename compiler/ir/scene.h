@@ -2,6 +2,7 @@
 
 #include "compiler/ir/function.h"
 #include "compiler/ir/mesh.h"
+#include "lang/rows.h"
 #include "lang/source.h"
 #include "runtime/camera.h"
 #include "runtime/light.h"
@@ -10,7 +11,9 @@
 #include "runtime/scene.h"
 #include "runtime/shapes/list.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -27,6 +30,14 @@ struct VariantOf<runtime::TypeList<Ts...>> {
 };
 /// One alternative per row of runtime::Shapes, with double members in object space.
 using Shape = VariantOf<runtime::Shapes<double>>::type;
+template <class List>
+struct VectorsOf;
+template <class... Ts>
+struct VectorsOf<runtime::TypeList<Ts...>> {
+    using type = std::variant<std::vector<Ts>...>;
+};
+/// Many shapes of one kind.
+using Shapes = VectorsOf<runtime::Shapes<double>>::type;
 
 struct Material {
     std::string name;             ///< the author's `let`, else made from the object; unique
@@ -42,6 +53,30 @@ struct Object {
     lang::Span span;
 };
 
+/// What one shape in the body of a loop, or a table of text, became: one object per round.
+struct ObjectColumn {
+    Shapes shapes;
+    runtime::Affine<double> world_from_object;  ///< of all of them
+    std::vector<runtime::Sides> sides;          ///< one per round, or one for all
+    std::string path;                           ///< without the number: `table/leg`
+    std::size_t first_number = 0;               ///< of the first round's path, `table/leg[2]`
+    std::size_t number_step = 1;                ///< from one round's to the next one's
+    lang::Span span;                            ///< of all of them, if `places` is null
+    std::shared_ptr<const lang::Places> places; ///< per round, from `first_place` on
+    std::size_t first_place = 0;
+
+    const runtime::Sides& sides_of(std::size_t round) const { return sides[sides.size() == 1 ? 0 : round]; }
+    lang::Span span_of(std::size_t round) const;
+    std::string path_of(std::size_t round) const;
+};
+
+/// Objects that differ in numbers only. In source order round by round, and column by column in a round.
+struct ObjectArray {
+    std::size_t before = 0; ///< how many of Scene::objects come before
+    std::size_t rounds = 0;
+    std::vector<ObjectColumn> columns;
+};
+
 struct Light {
     std::variant<runtime::PointLight<double>, runtime::DirectionalLight<double>> light;
     std::string name; ///< unique
@@ -51,8 +86,9 @@ struct Light {
 struct Scene {
     std::string name; ///< of the file, without folder and extension
     std::vector<Material> materials;
-    std::vector<Object> objects; ///< in source order, groups flattened
-    std::vector<Light> lights;   ///< enabled ones
+    std::vector<Object> objects; ///< in source order, groups flattened; see objects.h for going through all
+    std::vector<ObjectArray> arrays; ///< in source order
+    std::vector<Light> lights;       ///< enabled ones
     std::vector<Mesh> meshes;
     std::vector<Function> functions;
     runtime::Camera<double> camera;

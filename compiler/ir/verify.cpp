@@ -1,5 +1,7 @@
 #include "compiler/ir/verify.h"
 
+#include "compiler/ir/objects.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -65,6 +67,23 @@ void verify_object(const Object& object, const Scene& scene) {
     }
 }
 
+void verify_array(const ObjectArray& array, const Scene& scene) {
+    require(array.before <= scene.objects.size() && array.rounds > 0 && !array.columns.empty(),
+            "an array is empty or out of place", scene.name);
+    for (const ObjectColumn& column : array.columns) {
+        const std::size_t shapes = std::visit([](const auto& s) { return s.size(); }, column.shapes);
+        require(shapes == array.rounds && (column.sides.size() == 1 || column.sides.size() == array.rounds),
+                "a column has not one row per round", column.path);
+        std::uint32_t last = 0;
+        for (const runtime::Sides& sides : column.sides) {
+            last = std::max({last, sides.front, sides.back});
+        }
+        require(last < scene.materials.size(), "no such material", column.path);
+        // What it has in common with an object of its own
+        verify_object(object_of(column, 0), scene);
+    }
+}
+
 bool all_below(std::span<const std::uint32_t> indices, std::size_t count) {
     std::uint32_t largest = 0;
     for (const std::uint32_t index : indices) {
@@ -100,6 +119,9 @@ void verify(const Scene& scene) {
     }
     for (const Object& object : scene.objects) {
         verify_object(object, scene);
+    }
+    for (const ObjectArray& array : scene.arrays) {
+        verify_array(array, scene);
     }
     for (const Mesh& mesh : scene.meshes) {
         verify_mesh(mesh);

@@ -1,3 +1,4 @@
+#include "compiler/ir/objects.h"
 #include "compiler/ir/traits.h"
 #include "compiler/passes/passes.h"
 
@@ -25,6 +26,17 @@ void need(SceneTraits& traits, const ir::Object& object, const ir::Scene& scene)
         traits.smooth_normals |= triangle->smooth;
     } else if (const auto* mesh = std::get_if<runtime::Mesh<double>>(&object.shape)) {
         traits.smooth_normals |= !scene.meshes[mesh->mesh].normals.empty();
+    }
+}
+
+void need(SceneTraits& traits, const ir::ObjectColumn& column) {
+    const std::uint32_t bit = 1U << column.shapes.index();
+    (column.world_from_object == Affine<double>{} ? traits.bare_shapes : traits.placed_shapes) |= bit;
+    traits.two_sided |= std::any_of(column.sides.begin(), column.sides.end(),
+                                    [](const runtime::Sides& sides) { return sides.front != sides.back; });
+    if (const auto* triangles = std::get_if<std::vector<runtime::Triangle<double>>>(&column.shapes)) {
+        traits.smooth_normals |=
+            std::any_of(triangles->begin(), triangles->end(), [](const auto& t) { return t.smooth; });
     }
 }
 
@@ -61,9 +73,16 @@ void add(SceneTraits& traits, const SceneTraits& more) {
 
 std::vector<Need> needs_of(const ir::Scene& scene) {
     std::vector<Need> needs;
-    for (const ir::Object& object : scene.objects) {
-        need(needs.emplace_back(SceneTraits{}, object.span).traits, object, scene);
-    }
+    ir::for_each_piece(
+        scene,
+        [&](const ir::Object& object) {
+            need(needs.emplace_back(SceneTraits{}, object.span).traits, object, scene);
+        },
+        [&](const ir::ObjectArray& array) {
+            for (const ir::ObjectColumn& column : array.columns) {
+                need(needs.emplace_back(SceneTraits{}, column.span_of(0)).traits, column);
+            }
+        });
     for (const ir::Material& material : scene.materials) {
         need(needs.emplace_back(SceneTraits{}, material.span).traits, material.phong, scene.settings.depth);
     }
@@ -83,11 +102,20 @@ void derive_traits(ir::Scene& scene) {
     for (const Need& need : needs_of(scene)) {
         add(traits, need.traits);
     }
-    const auto bounded =
-        std::count_if(scene.objects.begin(), scene.objects.end(), [](const ir::Object& object) {
-            return !std::holds_alternative<runtime::Plane<double>>(object.shape);
+    std::size_t bounded = 0;
+    ir::for_each_piece(
+        scene,
+        [&](const ir::Object& object) {
+            bounded += std::holds_alternative<runtime::Plane<double>>(object.shape) ? 0 : 1;
+        },
+        [&](const ir::ObjectArray& array) {
+            for (const ir::ObjectColumn& column : array.columns) {
+                const bool planes =
+                    std::holds_alternative<std::vector<runtime::Plane<double>>>(column.shapes);
+                bounded += planes ? 0 : array.rounds;
+            }
         });
-    traits.accelerator = static_cast<std::size_t>(bounded) > runtime::accelerator_threshold;
+    traits.accelerator = bounded > runtime::accelerator_threshold;
     scene.traits = traits;
 }
 

@@ -1,3 +1,4 @@
+#include "compiler/ir/objects.h"
 #include "compiler/passes/passes.h"
 
 #include <algorithm>
@@ -46,16 +47,29 @@ void for_each_function_index(runtime::Phong<double>& phong, Visit visit) {
     visit(phong.shininess.function);
 }
 
+template <class Visit>
+void for_each_sides(ir::Scene& scene, Visit visit) {
+    for (ir::Object& object : scene.objects) {
+        visit(object.sides);
+    }
+    for (ir::ObjectArray& array : scene.arrays) {
+        for (ir::ObjectColumn& column : array.columns) {
+            std::for_each(column.sides.begin(), column.sides.end(), visit);
+        }
+    }
+}
+
 void drop_materials(ir::Scene& scene) {
-    std::vector<bool> used(scene.materials.size());
-    for (const ir::Object& object : scene.objects) {
-        used[object.sides.front] = true;
-        used[object.sides.back] = true;
+    std::vector<std::uint8_t> is_used(scene.materials.size()); // bytes: millions of objects write here
+    for_each_sides(scene, [&](const runtime::Sides& sides) { is_used[sides.front] = is_used[sides.back] = 1; });
+    const std::vector<bool> used(is_used.begin(), is_used.end());
+    if (std::find(used.begin(), used.end(), false) == used.end()) {
+        return;
     }
     const auto renumbered = keep(scene.materials, used);
-    for (ir::Object& object : scene.objects) {
-        object.sides = {renumbered[object.sides.front], renumbered[object.sides.back]};
-    }
+    for_each_sides(scene, [&](runtime::Sides& sides) {
+        sides = {renumbered[sides.front], renumbered[sides.back]};
+    });
 }
 
 void drop_functions(ir::Scene& scene) {
@@ -77,6 +91,7 @@ void drop_functions(ir::Scene& scene) {
     }
 }
 
+/// No array holds meshes.
 void drop_meshes(ir::Scene& scene) {
     std::vector<bool> used(scene.meshes.size());
     for (const ir::Object& object : scene.objects) {

@@ -1,3 +1,4 @@
+#include "compiler/ir/objects.h"
 #include "compiler/passes/passes.h"
 #include "runtime/math/affine.h"
 
@@ -129,6 +130,26 @@ bool reads_object_space(const ir::Scene& scene, std::uint32_t material) {
     return false;
 }
 
+/// Whether a form allows it depends on the transform, and on what all shapes of a column have in common.
+void flatten(ir::ObjectColumn& column, const ir::Scene& scene) {
+    const Affine<double> place = column.world_from_object;
+    const auto reads_object = [&](const runtime::Sides& sides) {
+        return reads_object_space(scene, sides.front) || reads_object_space(scene, sides.back);
+    };
+    if (place == Affine<double>{} || std::any_of(column.sides.begin(), column.sides.end(), reads_object)) {
+        return;
+    }
+    std::visit(
+        [&](auto& shapes) {
+            for (auto& shape : shapes) {
+                if (flatten(shape, place)) {
+                    column.world_from_object = {};
+                }
+            }
+        },
+        column.shapes);
+}
+
 } // namespace
 
 void flatten_transforms(ir::Scene& scene) {
@@ -139,6 +160,11 @@ void flatten_transforms(ir::Scene& scene) {
         }
         if (std::visit([&](auto& shape) { return flatten(shape, object.world_from_object); }, object.shape)) {
             object.world_from_object = {};
+        }
+    }
+    for (ir::ObjectArray& array : scene.arrays) {
+        for (ir::ObjectColumn& column : array.columns) {
+            flatten(column, scene);
         }
     }
 }

@@ -102,9 +102,10 @@ struct Scene : Front {
     Module module;
 
     explicit Scene(std::string_view text, const std::vector<Definition>& definitions = {},
-                   const EvaluationLimits& limits = {})
+                   const EvaluationLimits& limits = {}, bool in_tables = false)
         : Front(text) {
-        module = check(parse(), toy_schema(), definitions, sources, diagnostics, limits);
+        const auto tree = in_tables ? read_file(sources, file, diagnostics) : parse();
+        module = check(tree, toy_schema(), definitions, sources, diagnostics, limits);
     }
 };
 

@@ -18,6 +18,7 @@ std::map<std::string, Runs> alternate(const std::vector<Contestant>& contestants
             runs.version = std::move(drawing.version);
             if (i > 0) {
                 runs.trace.add(drawing.trace);
+                runs.parse.add(drawing.parse);
                 runs.wall.add(drawing.wall);
             }
         }

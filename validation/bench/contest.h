@@ -18,7 +18,7 @@ struct Contestant {
 
 /// What a contestant's runs have shown; with a failure nothing.
 struct Runs {
-    Series trace, wall;
+    Series trace, parse, wall;
     nlohmann::json stats; ///< of the last run
     std::string version;
     std::string failure;

@@ -41,7 +41,11 @@ Drawing run_ours(const Command& command, const std::filesystem::path& stats) {
     }
     std::ifstream file(stats);
     drawing.stats = nlohmann::json::parse(file);
-    drawing.trace = drawing.stats.at("times_ms").at("render").get<double>() * 1e-3;
+    const nlohmann::json& times = drawing.stats.at("times_ms");
+    drawing.trace = times.at("render").get<double>() * 1e-3;
+    for (const char* stage : {"parse", "check", "lower", "passes"}) {
+        drawing.parse += times.value(stage, 0.0) * 1e-3;
+    }
     return drawing;
 }
 
@@ -88,6 +92,7 @@ Drawing draw_with_povray(const std::filesystem::path& scene, const PictureJob& j
         return drawing;
     }
     drawing.trace = *output.trace;
+    drawing.parse = output.parse.value_or(0);
     drawing.version = output.version;
     return drawing;
 }

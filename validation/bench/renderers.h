@@ -11,7 +11,9 @@ namespace scc::bench {
 
 /// One run. With a failure the rest means nothing.
 struct Drawing {
-    double trace = 0;     ///< seconds, by the renderer's own account: without reading, building and writing
+    double trace = 0; ///< seconds, by the renderer's own account: without reading, building and writing
+    double parse =
+        0; ///< seconds, by its own account: from the file to the scene, without building hierarchies
     double wall = 0;      ///< seconds, of the process
     nlohmann::json stats; ///< as `--stats` writes them; of peers nothing
     std::string version;  ///< of a peer, as it names itself

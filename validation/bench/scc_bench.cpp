@@ -1,4 +1,5 @@
 #include "validation/bench/contest.h"
+#include "validation/bench/frontend.h"
 #include "validation/bench/nff.h"
 #include "validation/bench/own_scenes.h"
 #include "validation/subprocess.h"
@@ -29,7 +30,7 @@ struct Options {
     fs::path data = SCC_BENCH_DATA;
     fs::path examples = SCC_SOURCE_DIR "/examples";
     fs::path scenes = SCC_SOURCE_DIR "/validation/bench/scenes";
-    std::vector<std::string> rows{"kernels", "mirrors", "spd", "gains"};
+    std::vector<std::string> rows{"kernels", "mirrors", "spd", "gains", "frontend"};
     std::vector<int> threads{1, 2};
     int repeat = 5;
 
@@ -72,6 +73,9 @@ public:
         }
         if (options_.wants("gains")) {
             gains();
+        }
+        if (options_.wants("frontend")) {
+            frontend();
         }
         for (const std::string& version : versions_) {
             report_.describe("peer", version);
@@ -326,6 +330,46 @@ private:
         }
     }
 
+    // --- reading scenes ---
+
+    void frontend() {
+        for (const std::size_t count : {std::size_t{100'000}, std::size_t{1'000'000}}) {
+            read_spheres("flat text", write_flat_spheres(count, work_), count, Target{10, 10});
+            read_spheres("a loop", write_loop_of_spheres(count, work_), count, Target{40, 40});
+        }
+    }
+
+    void read_spheres(const std::string& how, const SphereScene& scene, std::size_t count, Target target) {
+        const PictureJob job{.folder = work_, .width = 16, .height = 16, .arguments = {"--size", "16x16"}};
+        const bool has_povray = validation::find_program("povray").has_value();
+        const auto runs = alternate(
+            {{render_name,
+              [&] { return draw_with_scc(fs::absolute(options_.scc), fs::absolute(scene.scn), job); }},
+             {povray_name,
+              [&] {
+                  return has_povray ? draw_with_povray(fs::absolute(scene.pov), job)
+                                    : failed("POV-Ray is not installed");
+              }}},
+            options_.repeat);
+        Row row = compare(runs, render_name, povray_name, &Runs::parse);
+        std::string figures;
+        if (row.skipped.empty()) {
+            const double ours = runs.at(render_name).parse.median();
+            const double theirs = runs.at(povray_name).parse.median();
+            const double memory =
+                runs.at(render_name).stats.at("peak_rss_mb").get<double>() * 1e6 / static_cast<double>(count);
+            const auto rates = [&](double bytes, double seconds) {
+                const std::string text =
+                    bytes > 1e6 ? fmt::format("{:.0f} MB/s, ", bytes / seconds * 1e-6) : "";
+                return text + fmt::format("{:.2f} M objects/s", static_cast<double>(count) / seconds * 1e-6);
+            };
+            figures = fmt::format("; ours {}, theirs {}; at most {:.0f} bytes per sphere with the hierarchy",
+                                  rates(scene.scn_bytes, ours), rates(scene.pov_bytes, theirs), memory);
+        }
+        add(std::move(row), fmt::format("reading spheres from {}, POV-Ray", how),
+            fmt::format("{} spheres{}", count, figures), 1, target);
+    }
+
     // --- the Standard Procedural Databases and scenes like them ---
 
     void spd() {
@@ -490,7 +534,7 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--rows", options.rows, "Of kernels, mirrors, spd, gains")
         ->delimiter(',')
-        ->check(CLI::IsMember({"kernels", "mirrors", "spd", "gains"}));
+        ->check(CLI::IsMember({"kernels", "mirrors", "spd", "gains", "frontend"}));
     app.add_option("--threads", options.threads, "Numbers of threads")->delimiter(',')->capture_default_str();
     app.add_option("--repeat", options.repeat, "Repetitions")
         ->check(CLI::PositiveNumber)

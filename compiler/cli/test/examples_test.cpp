@@ -41,5 +41,17 @@ TEST_P(Examples, AgreeWithPovRayAndBlender) {
     EXPECT_EQ(result.code, 0) << result.out << result.err;
 }
 
+/// Too many objects for the other renderers; see Arrays for what they get.
+TEST_F(CommandLine, DrawsAHundredThousandSpheres) {
+    const std::string scene = example("spheres.scn");
+    EXPECT_TRUE(scc({"check", "--strict", scene}).ok());
+    ASSERT_TRUE(scc({"build", scene, "-o", "prog", "--precision", "double"}).ok());
+    const auto drawn =
+        scc({"render", scene, "-o", "generic.pfm", "--size", "160x120", "--precision", "double", "--stats", "-"});
+    ASSERT_TRUE(drawn.ok()) << drawn.err;
+    ASSERT_TRUE(start(path("prog"), {"-o", "native.pfm", "--size", "160x120"}).ok());
+    EXPECT_TRUE(read("generic.pfm") == read("native.pfm"));
+}
+
 } // namespace
 } // namespace scc::cli::test

@@ -1,0 +1,32 @@
+#include "compiler/ir/objects.h"
+
+#include <fmt/core.h>
+
+namespace scc::compiler::ir {
+
+lang::Span ObjectColumn::span_of(std::size_t round) const {
+    lang::Span place = span;
+    if (places) {
+        std::tie(place.begin, place.end) = (*places)[first_place + round];
+    }
+    return place;
+}
+
+std::string ObjectColumn::path_of(std::size_t round) const {
+    return fmt::format("{}[{}]", path, first_number + round * number_step);
+}
+
+std::size_t object_count(const Scene& scene) {
+    std::size_t count = scene.objects.size();
+    for (const ObjectArray& array : scene.arrays) {
+        count += array.rounds * array.columns.size();
+    }
+    return count;
+}
+
+Object object_of(const ObjectColumn& column, std::size_t round) {
+    return {std::visit([&](const auto& shapes) { return Shape{shapes[round]}; }, column.shapes),
+            column.world_from_object, column.sides_of(round), column.path_of(round), column.span_of(round)};
+}
+
+} // namespace scc::compiler::ir

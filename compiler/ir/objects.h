@@ -1,0 +1,70 @@
+#pragma once
+
+#include "compiler/ir/scene.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+/// The one way to go through all objects of a scene, those on their own and those of arrays, in source order.
+namespace scc::compiler::ir {
+
+std::size_t object_count(const Scene& scene);
+
+/// An object as it would stand on its own.
+Object object_of(const ObjectColumn& column, std::size_t round);
+
+/// Calls `single(object)` and `array(array)` in source order.
+template <class SomeScene, class Single, class Array>
+void for_each_piece(SomeScene& scene, Single single, Array array) {
+    std::size_t done = 0;
+    const auto singles_up_to = [&](std::size_t end) {
+        for (; done < end; ++done) {
+            single(scene.objects[done]);
+        }
+    };
+    for (auto& one : scene.arrays) {
+        singles_up_to(one.before);
+        array(one);
+    }
+    singles_up_to(scene.objects.size());
+}
+
+/// Calls `visit(shape, world_from_object, sides)` with every object, the shape being of its own type.
+template <class SomeScene, class Visit>
+void for_each_shape(SomeScene& scene, Visit visit) {
+    for_each_piece(
+        scene,
+        [&](auto& object) {
+            std::visit([&](auto& shape) { visit(shape, object.world_from_object, object.sides); },
+                       object.shape);
+        },
+        [&](auto& array) {
+            for (std::size_t round = 0; round < array.rounds; ++round) {
+                for (auto& column : array.columns) {
+                    std::visit(
+                        [&](auto& shapes) {
+                            visit(shapes[round], column.world_from_object, column.sides_of(round));
+                        },
+                        column.shapes);
+                }
+            }
+        });
+}
+
+/// Calls `visit(object)` with every object. Those of arrays are made for it, which takes a while; what goes
+/// through millions of them looks at their columns.
+template <class Visit>
+void for_each_object(const Scene& scene, Visit visit) {
+    for_each_piece(scene, visit, [&](const ObjectArray& array) {
+        for (std::size_t round = 0; round < array.rounds; ++round) {
+            for (const ObjectColumn& column : array.columns) {
+                visit(object_of(column, round));
+            }
+        }
+    });
+}
+
+} // namespace scc::compiler::ir
