@@ -93,6 +93,7 @@ public:
     void operator()(const ast::Block& node) { body(node.body); }
     void operator()(const ast::Field& node) { expr(node.value); }
     void operator()(const ast::Child& node) { expr(node.value); }
+    void operator()(const ast::Table&) {} // only read_file makes these
 
 private:
     /// The first token that begins there or later.
