@@ -1,13 +1,17 @@
 #include "compiler/scene_checks.h"
 
 #include "compiler/bounds.h"
+#include "compiler/ir/objects.h"
 #include "compiler/values.h"
 #include "lang/schema.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string>
+#include <utility>
+#include <variant>
 
 namespace scc::compiler {
 
@@ -26,21 +30,53 @@ double largest_coordinate(const Vec3<double>& p) {
     return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
 }
 
+using Box = runtime::Bounds<double>;
+
+/// f(box, span, path) for every object, the box in world space and none for an unbounded shape; span() and
+/// path() are made where they are asked for, since of millions few are.
+template <class F>
+void for_each_box(const ir::Scene& scene, F f) {
+    const auto box = [&](const auto& shape, const runtime::Affine<double>& place) {
+        const std::optional<Box> own = object_bounds(shape, scene);
+        return own && place != runtime::Affine<double>{} ? transform_bounds(place, *own) : own;
+    };
+    ir::for_each_piece(
+        scene,
+        [&](const ir::Object& object) {
+            f(
+                box(object.shape, object.world_from_object), [&] { return object.span; },
+                [&] { return object.path; });
+        },
+        [&](const ir::ObjectArray& array) {
+            for (const ir::ObjectColumn& column : array.columns) {
+                std::visit(
+                    [&](const auto& shapes) {
+                        for (std::size_t round = 0; round < array.rounds; ++round) {
+                            f(
+                                box(shapes[round], column.world_from_object),
+                                [&] { return column.span_of(round); }, [&] { return column.path_of(round); });
+                        }
+                    },
+                    column.shapes);
+            }
+        });
+}
+
 /// The largest distance in front of the camera of anything drawn, at most `far`.
 double farthest_depth(const ir::Scene& scene) {
     double farthest = 0;
-    for (const ir::Object& object : scene.objects) {
-        const auto own = object_bounds(object.shape, scene);
-        if (!own) {
-            return scene.far;
+    for_each_box(scene, [&](const std::optional<Box>& bounds, const auto&, const auto&) {
+        if (!bounds) {
+            farthest = scene.far;
+            return;
         }
-        const runtime::Bounds<double> box = transform_bounds(object.world_from_object, *own);
+        const Box& box = *bounds;
         for (int corner = 0; corner < 8; ++corner) {
             const Vec3<double> p{corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
                                  corner & 4 ? box.max.z : box.min.z};
             farthest = std::max(farthest, dot(scene.camera.eye - p, scene.camera.n));
         }
-    }
+    });
     return std::min(farthest, scene.far);
 }
 
@@ -64,12 +100,16 @@ lang::Span depth_range_span(const lang::Module& module, lang::Span camera) {
 void check_depth(const lang::Module& module, const ir::Scene& scene, lang::Diagnostics& diagnostics) {
     const double near = scene.near;
     const double far = scene.far;
+    const auto resolved_at = [&](double d) { return d * d * (far - near) / (far * near * depth_steps); };
+    const auto pixel_at = [&](double d) { return 2 * scene.camera.half_height * d / scene.settings.height; };
+    if (scene.camera.projection != runtime::Projection::perspective || resolved_at(far) <= pixel_at(far)) {
+        return; // at smaller depths it is better still, whatever there is
+    }
     const double depth = farthest_depth(scene);
-    if (scene.camera.projection != runtime::Projection::perspective || !(depth > near)) {
+    const double resolved = resolved_at(depth), pixel = pixel_at(depth);
+    if (!(depth > near)) {
         return;
     }
-    const double resolved = depth * depth * (far - near) / (far * near * depth_steps);
-    const double pixel = 2 * scene.camera.half_height * depth / scene.settings.height;
     if (resolved > pixel) {
         const double enough =
             depth * (1 - near / far) * scene.settings.height / (2 * scene.camera.half_height * depth_steps);
@@ -84,36 +124,35 @@ void check_depth(const lang::Module& module, const ir::Scene& scene, lang::Diagn
 void check_distance(const ir::Scene& scene, lang::Diagnostics& diagnostics) {
     struct Far {
         std::size_t count = 0;
+        lang::Span span;
         std::string path;
         double steps = 0;
     };
     std::map<std::pair<std::uint32_t, std::uint32_t>, Far> found;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, lang::Span> spans;
-    for (const ir::Object& object : scene.objects) {
-        const auto own = object_bounds(object.shape, scene);
-        if (!own) {
-            continue;
+    for_each_box(scene, [&](const std::optional<Box>& box, const auto& span_of, const auto& path_of) {
+        if (!box) {
+            return;
         }
-        const runtime::Bounds<double> box = transform_bounds(object.world_from_object, *own);
-        const double away = std::max(largest_coordinate(box.min), largest_coordinate(box.max));
-        const Vec3<double> extent = box.max - box.min;
+        const double away = std::max(largest_coordinate(box->min), largest_coordinate(box->max));
+        const Vec3<double> extent = box->max - box->min;
         const double steps = float_steps * std::max({extent.x, extent.y, extent.z}) / away;
         if (steps >= fewest_steps || !(away > 0)) {
-            continue;
+            return;
         }
-        const std::pair key{object.span.file, object.span.begin};
+        const lang::Span span = span_of();
+        const std::pair key{span.file, span.begin};
         Far& far = found[key];
-        spans[key] = object.span;
         if (far.count++ == 0) {
-            far.path = object.path;
+            far.span = span;
+            far.path = path_of();
             far.steps = steps;
         }
-    }
+    });
     for (const auto& [key, far] : found) {
         lang::Diagnostic& diagnostic =
-            diagnostics.report(Diag::far_from_origin, spans[key], far.path, fmt::format("{:.3g}", far.steps));
+            diagnostics.report(Diag::far_from_origin, far.span, far.path, fmt::format("{:.3g}", far.steps));
         if (far.count > 1) {
-            diagnostic.note(spans[key], fmt::format("the first of {} such objects", far.count));
+            diagnostic.note(far.span, fmt::format("the first of {} such objects", far.count));
         }
     }
 }

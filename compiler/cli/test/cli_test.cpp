@@ -290,6 +290,25 @@ TEST_F(CommandLine, ThreadsCropAndRepetitionGiveTheSameBits) {
     EXPECT_EQ(crop.substr(crop.size() - row_bytes), one.substr(one.size() - (21 * 80 - 10) * 12, row_bytes));
 }
 
+// Also where a loop or a table of text became columns of numbers.
+TEST_F(CommandLine, ChecksEveryObjectOfColumns) {
+    std::string table;
+    for (int i = 0; i < 100; ++i) {
+        table += "sphere { center = (1e7, " + std::to_string(i) + ", 0), radius = 1 }\n";
+    }
+    const std::string camera =
+        "perspective_camera { eye = (1e7, 1, 9), target = (1e7, 0, 0), near = 1e-5 }\n";
+    write("loop.scn", camera + "for (i in 0..100) { sphere { center = (1e7, i, 0), radius = 1 } }\n");
+    write("table.scn", camera + table);
+    for (const char* file : {"loop.scn", "table.scn"}) {
+        const auto result = scc({"check", file});
+        EXPECT_TRUE(result.ok());
+        EXPECT_NE(result.err.find("[far-from-origin]"), std::string::npos) << file << result.err;
+        EXPECT_NE(result.err.find("[depth-precision]"), std::string::npos) << file << result.err;
+    }
+    EXPECT_NE(scc({"check", "loop.scn"}).err.find("the first of 100 such objects"), std::string::npos);
+}
+
 TEST_F(CommandLine, InterruptedRenderLeavesNoPicture) {
     // As a person would: the signal comes while the picture is being drawn.
     std::thread interrupter([] {
