@@ -1,5 +1,6 @@
 #include "compiler/pipeline.h"
 
+#include "compiler/file_importer.h"
 #include "compiler/lower.h"
 #include "compiler/passes/passes.h"
 #include "compiler/scene_checks.h"
@@ -23,7 +24,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uintmax_t largest_text_file = std::uintmax_t{1} << 30;
+constexpr std::uintmax_t largest_text_file = compiler::largest_scene_file;
 
 } // namespace
 
@@ -69,15 +70,25 @@ std::vector<lang::Definition> parse_definitions(const std::vector<std::string>& 
     return definitions;
 }
 
-LowerOptions lower_options(const SceneOptions& options, const std::vector<lang::Definition>& definitions) {
+AssetPolicy asset_policy(const SceneOptions& options, const std::vector<lang::Definition>& definitions) {
+    AssetPolicy policy;
+    policy.scene_folder = fs::path(options.file).parent_path();
+    policy.asset_paths.assign(options.asset_paths.begin(), options.asset_paths.end());
+    for (const lang::Definition& definition : definitions) {
+        policy.named_by_user.insert(definition.value);
+    }
+    return policy;
+}
+
+LowerOptions lower_options(const SceneOptions& options, const std::vector<lang::Definition>& definitions,
+                           const Loaded& loaded) {
     LowerOptions result;
     result.name = fs::path(options.file).stem().string();
     result.camera = options.camera;
     result.keep_meshes = options.keep_meshes;
-    result.assets.scene_folder = fs::path(options.file).parent_path();
-    result.assets.asset_paths.assign(options.asset_paths.begin(), options.asset_paths.end());
-    for (const lang::Definition& definition : definitions) {
-        result.assets.named_by_user.insert(definition.value);
+    result.assets = asset_policy(options, definitions);
+    for (const lang::FileId file : loaded.module.imports) {
+        result.import_folders[file] = fs::path(loaded.sources.file(file).path()).parent_path();
     }
     return result;
 }
@@ -96,6 +107,14 @@ void lower_the_rest(Loaded& loaded, const LowerOptions& options) {
 
 std::string read_text(const SceneOptions& options, const std::string& path) {
     return options.texts != nullptr ? options.texts->at(path) : read_text_file(path);
+}
+
+std::unique_ptr<lang::Importer> make_importer(const SceneOptions& options,
+                                              const std::vector<lang::Definition>& definitions) {
+    if (options.texts != nullptr) {
+        return std::make_unique<TextImporter>(*options.texts);
+    }
+    return std::make_unique<FileImporter>(asset_policy(options, definitions));
 }
 
 // Runs one stage and notes how long it took.
@@ -128,14 +147,15 @@ Loaded load(const SceneOptions& options, Stage last) {
         return loaded;
     }
     timed(loaded, "check", [&] {
-        loaded.module =
-            lang::check(loaded.tree, scene_schema(), definitions, loaded.sources, loaded.diagnostics);
+        const std::unique_ptr<lang::Importer> importer = make_importer(options, definitions);
+        loaded.module = lang::check(loaded.tree, scene_schema(), definitions, loaded.sources,
+                                    loaded.diagnostics, {}, importer.get());
     });
     if (last < Stage::scene) {
         return loaded;
     }
     timed(loaded, "lower", [&] {
-        const LowerOptions lowering = lower_options(options, definitions);
+        const LowerOptions lowering = lower_options(options, definitions, loaded);
         if (loaded.diagnostics.has_errors()) {
             lower_the_rest(loaded, lowering);
         } else {

@@ -10,14 +10,16 @@ namespace scc::compiler {
 namespace fs = std::filesystem;
 
 ProgramScene program_scene(const Loaded& loaded, const SceneOptions& options) {
-    const fs::path folder = fs::path(options.file).parent_path();
+    const fs::path folder = fs::path(options.file).lexically_normal().parent_path();
     ProgramScene scene{.file = fs::path(options.file).filename().string(),
                        .texts = {},
                        .definitions = options.definitions,
                        .camera = options.camera};
     for (lang::FileId id = 0; loaded.sources.contains(id); ++id) {
         const lang::SourceFile& file = loaded.sources.file(id);
-        scene.texts.emplace(fs::path(file.path()).lexically_relative(folder).string(), file.text());
+        const fs::path path = fs::path(file.path()).lexically_normal().lexically_relative(folder);
+        const bool within = !path.empty() && *path.begin() != "..";
+        scene.texts.emplace((within ? path : fs::path(file.path()).filename()).string(), file.text());
     }
     return scene;
 }

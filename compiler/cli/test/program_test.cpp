@@ -201,22 +201,37 @@ protected:
     void expect_as_rendered(const std::vector<std::string>& definitions) {
         const auto drawn = draw(definitions);
         ASSERT_TRUE(drawn.ok()) << drawn.err;
-        std::vector<std::string> arguments{"render", "s.scn", "-o", "generic.pfm",
-                                           "--size", "32x24", "-D", "n=80"};
+        std::vector<std::string> arguments{"render", "s.scn", "-o", "generic.pfm", "--size", "32x24"};
         for (const std::string& definition : definitions) {
             arguments.insert(arguments.end(), {"-D", definition});
         }
-        ASSERT_TRUE(scc(arguments).ok());
+        const auto rendered = scc(arguments);
+        ASSERT_TRUE(rendered.ok()) << rendered.err;
         EXPECT_TRUE(read("native.pfm") == read("generic.pfm"));
     }
 };
 
 TEST_F(BuiltProgramWithParameters, DrawsTheSceneWithOtherValues) {
-    expect_as_rendered({});
-    expect_as_rendered({"r=2.5"});
+    expect_as_rendered({"n=80"});
+    expect_as_rendered({"r=2.5", "n=80"});
     expect_as_rendered({"r=0.5", "n=700", "tint=rgb(0.1, 0.9, 0.4)"});
     fs::remove(path("s.scn")); // it has all it needs
     EXPECT_TRUE(draw({"r=2"}).ok());
+}
+
+TEST_F(BuiltProgramWithParameters, KeepsWhatItsSceneImports) {
+    fs::create_directory(folder() / "lights");
+    write("lights/studio.scn", "import \"../tint.scn\" as tint\nparam power: number = 1\n"
+                               "point_light { position = (5, 4, 5), color = power * tint.warm }\n");
+    write("tint.scn", "let warm = rgb(1, 0.8, 0.6)\n");
+    write("s.scn", "import \"lights/studio.scn\" as studio\nparam n: number = 1\nsphere { }\nstudio.scene\n"
+                   "perspective_camera { eye = (0, 1, 7) }\n");
+    ASSERT_TRUE(scc({"build", "s.scn", "-o", "prog"}).ok());
+    expect_as_rendered({"studio.power=0.5"});
+    fs::remove(path("s.scn"));
+    fs::remove_all(folder() / "lights");
+    EXPECT_TRUE(draw({"studio.power=0.7"}).ok());
+    EXPECT_TRUE(read("prog").find(folder().string()) == std::string::npos);
 }
 
 TEST_F(BuiltProgramWithParameters, SaysWhatIsWrongWithTheValues) {
