@@ -106,6 +106,22 @@ void lower_the_rest(Loaded& loaded, const compiler::LowerOptions& options) {
     }
 }
 
+void check_frame(const SceneOptions& options, Loaded& loaded) {
+    const std::optional<lang::Frames>& frames = loaded.module.frames;
+    if (!frames && options.frame && !loaded.diagnostics.has_errors()) {
+        throw host::UsageError("the scene has no frames; its `render` has no `frames`");
+    }
+    if (frames && (frames->chosen < frames->begin || frames->chosen >= frames->end)) {
+        throw host::UsageError(fmt::format("there is no frame {}; the scene has the frames {}..{}, the last "
+                                           "one excluded",
+                                           frames->chosen, frames->begin, frames->end));
+    }
+    if (frames && !options.frame && options.tells_frame) {
+        loaded.diagnostics.report(lang::Diag::one_frame, lang::Span{}, frames->begin, frames->end,
+                                  frames->chosen);
+    }
+}
+
 // Runs one stage and notes how long it took.
 template <class Run>
 void timed(Loaded& loaded, const char* stage, Run run) {
@@ -138,8 +154,9 @@ Loaded load(const SceneOptions& options, Stage last) {
     timed(loaded, "check", [&] {
         compiler::FileImporter importer(asset_policy(options, definitions));
         loaded.module = lang::check(loaded.tree, compiler::scene_schema(), definitions, loaded.sources,
-                                    loaded.diagnostics, {}, &importer);
+                                    loaded.diagnostics, {}, &importer, options.frame);
     });
+    check_frame(options, loaded);
     if (last < Stage::scene) {
         return loaded;
     }
