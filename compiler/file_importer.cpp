@@ -50,4 +50,19 @@ lang::ImportText FileImporter::read(const lang::ImportTarget& target) {
     return {std::move(text), {}};
 }
 
+lang::ImportTarget TextImporter::find(const std::string& from, const std::string& name) {
+    const fs::path beside = fs::path(from).parent_path() / name;
+    for (const fs::path& path :
+         {beside.lexically_normal(), fs::path(name).lexically_normal(), beside.filename()}) {
+        if (texts_.contains(path.string())) {
+            return {Status::found, path.string(), path.string(), {}};
+        }
+    }
+    return {Status::missing, {}, {}, "it was not imported when this was built"};
+}
+
+lang::ImportText TextImporter::read(const lang::ImportTarget& target) {
+    return {texts_.at(target.path), {}};
+}
+
 } // namespace scc::compiler

@@ -3,6 +3,8 @@
 #include "compiler/assets.h"
 #include "lang/importer.h"
 
+#include <cstdint>
+#include <map>
 #include <string>
 
 namespace scc::compiler {
@@ -22,6 +24,21 @@ public:
 
 private:
     AssetPolicy policy_;
+};
+
+/// Imports texts that are in memory, by their paths relative to the scene's folder; one from elsewhere has
+/// its file's name only.
+class TextImporter : public lang::Importer {
+public:
+    /// `texts` must outlive this.
+    explicit TextImporter(const std::map<std::string, std::string>& texts) : texts_(texts) {}
+
+    lang::ImportTarget find(const std::string& from, const std::string& name) override;
+    std::string identity(const std::string& path) override { return path; }
+    lang::ImportText read(const lang::ImportTarget& target) override;
+
+private:
+    const std::map<std::string, std::string>& texts_;
 };
 
 } // namespace scc::compiler

@@ -18,8 +18,8 @@ using Lines = std::vector<std::string>;
 TEST_F(CommandLine, HelpNamesEveryCommand) {
     const auto result = scc({"--help"});
     EXPECT_TRUE(result.ok());
-    for (const char* command :
-         {"check", "fmt", "params", "render", "build", "export", "import", "validate", "compare", "doctor", "reference"}) {
+    for (const char* command : {"check", "fmt", "params", "render", "build", "export", "import", "validate",
+                                "compare", "doctor", "reference"}) {
         EXPECT_NE(result.out.find(command), std::string::npos) << command;
     }
 }

@@ -1,4 +1,4 @@
-#include "compiler/cli/pipeline.h"
+#include "compiler/pipeline.h"
 
 #include "compiler/file_importer.h"
 #include "compiler/lower.h"
@@ -18,7 +18,7 @@
 #include <iterator>
 #include <unistd.h>
 
-namespace scc::cli {
+namespace scc::compiler {
 
 namespace fs = std::filesystem;
 
@@ -70,9 +70,8 @@ std::vector<lang::Definition> parse_definitions(const std::vector<std::string>& 
     return definitions;
 }
 
-compiler::AssetPolicy asset_policy(const SceneOptions& options,
-                                   const std::vector<lang::Definition>& definitions) {
-    compiler::AssetPolicy policy;
+AssetPolicy asset_policy(const SceneOptions& options, const std::vector<lang::Definition>& definitions) {
+    AssetPolicy policy;
     policy.scene_folder = fs::path(options.file).parent_path();
     policy.asset_paths.assign(options.asset_paths.begin(), options.asset_paths.end());
     for (const lang::Definition& definition : definitions) {
@@ -81,9 +80,9 @@ compiler::AssetPolicy asset_policy(const SceneOptions& options,
     return policy;
 }
 
-compiler::LowerOptions lower_options(const SceneOptions& options,
-                                     const std::vector<lang::Definition>& definitions, const Loaded& loaded) {
-    compiler::LowerOptions result;
+LowerOptions lower_options(const SceneOptions& options, const std::vector<lang::Definition>& definitions,
+                           const Loaded& loaded) {
+    LowerOptions result;
     result.name = fs::path(options.file).stem().string();
     result.camera = options.camera;
     result.keep_meshes = options.keep_meshes;
@@ -96,9 +95,9 @@ compiler::LowerOptions lower_options(const SceneOptions& options,
 
 // Of a scene that has mistakes, what has none is lowered for the mistakes that only show there. What depends
 // on the scene as a whole is not to be trusted: a camera or a light may be among what is left out.
-void lower_the_rest(Loaded& loaded, const compiler::LowerOptions& options) {
+void lower_the_rest(Loaded& loaded, const LowerOptions& options) {
     lang::Diagnostics found;
-    compiler::lower(loaded.module, options, found);
+    lower(loaded.module, options, found);
     for (const lang::Diagnostic& diagnostic : found.sorted()) {
         if (diagnostic.severity != lang::Severity::note && diagnostic.kind != lang::Diag::unknown_camera) {
             loaded.diagnostics.add(diagnostic);
@@ -122,6 +121,18 @@ void check_frame(const SceneOptions& options, Loaded& loaded) {
     }
 }
 
+std::string read_text(const SceneOptions& options, const std::string& path) {
+    return options.texts != nullptr ? options.texts->at(path) : read_text_file(path);
+}
+
+std::unique_ptr<lang::Importer> make_importer(const SceneOptions& options,
+                                              const std::vector<lang::Definition>& definitions) {
+    if (options.texts != nullptr) {
+        return std::make_unique<TextImporter>(*options.texts);
+    }
+    return std::make_unique<FileImporter>(asset_policy(options, definitions));
+}
+
 // Runs one stage and notes how long it took.
 template <class Run>
 void timed(Loaded& loaded, const char* stage, Run run) {
@@ -137,7 +148,7 @@ Loaded load(const SceneOptions& options, Stage last) {
     Loaded loaded;
     const std::vector<lang::Definition> definitions = parse_definitions(options.definitions);
     timed(loaded, "parse", [&] {
-        const lang::FileId file = loaded.sources.add(options.file, read_text_file(options.file));
+        const lang::FileId file = loaded.sources.add(options.file, read_text(options, options.file));
         if (last >= Stage::module) {
             loaded.tree = lang::read_file(loaded.sources, file, loaded.diagnostics);
             return;
@@ -152,25 +163,25 @@ Loaded load(const SceneOptions& options, Stage last) {
         return loaded;
     }
     timed(loaded, "check", [&] {
-        compiler::FileImporter importer(asset_policy(options, definitions));
-        loaded.module = lang::check(loaded.tree, compiler::scene_schema(), definitions, loaded.sources,
-                                    loaded.diagnostics, {}, &importer, options.frame);
+        const std::unique_ptr<lang::Importer> importer = make_importer(options, definitions);
+        loaded.module = lang::check(loaded.tree, scene_schema(), definitions, loaded.sources,
+                                    loaded.diagnostics, {}, importer.get(), options.frame);
     });
     check_frame(options, loaded);
     if (last < Stage::scene) {
         return loaded;
     }
     timed(loaded, "lower", [&] {
-        const compiler::LowerOptions lowering = lower_options(options, definitions, loaded);
+        const LowerOptions lowering = lower_options(options, definitions, loaded);
         if (loaded.diagnostics.has_errors()) {
             lower_the_rest(loaded, lowering);
         } else {
-            loaded.scene = compiler::lower(loaded.module, lowering, loaded.diagnostics);
-            compiler::check_scene(loaded.module, loaded.scene, loaded.diagnostics);
+            loaded.scene = lower(loaded.module, lowering, loaded.diagnostics);
+            check_scene(loaded.module, loaded.scene, loaded.diagnostics);
         }
     });
     if (!loaded.diagnostics.has_errors()) {
-        timed(loaded, "passes", [&] { compiler::run_passes(loaded.scene); });
+        timed(loaded, "passes", [&] { run_passes(loaded.scene); });
     }
     return loaded;
 }
@@ -194,4 +205,13 @@ bool report(const Loaded& loaded) {
     return !loaded.diagnostics.has_errors();
 }
 
-} // namespace scc::cli
+std::string described(const lang::Param& param) {
+    std::string text = fmt::format("{}: {} = {}", param.name, lang::to_string(param.type),
+                                   lang::to_string(param.default_value));
+    if (param.range) {
+        text += fmt::format(" in {}..{}", param.range->first, param.range->second);
+    }
+    return text + (param.text.empty() ? "" : fmt::format("  // {}", param.text));
+}
+
+} // namespace scc::compiler
