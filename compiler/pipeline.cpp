@@ -105,6 +105,22 @@ void lower_the_rest(Loaded& loaded, const LowerOptions& options) {
     }
 }
 
+void check_frame(const SceneOptions& options, Loaded& loaded) {
+    const std::optional<lang::Frames>& frames = loaded.module.frames;
+    if (!frames && options.frame && !loaded.diagnostics.has_errors()) {
+        throw host::UsageError("the scene has no frames; its `render` has no `frames`");
+    }
+    if (frames && (frames->chosen < frames->begin || frames->chosen >= frames->end)) {
+        throw host::UsageError(fmt::format("there is no frame {}; the scene has the frames {}..{}, the last "
+                                           "one excluded",
+                                           frames->chosen, frames->begin, frames->end));
+    }
+    if (frames && !options.frame && options.tells_frame) {
+        loaded.diagnostics.report(lang::Diag::one_frame, lang::Span{}, frames->begin, frames->end,
+                                  frames->chosen);
+    }
+}
+
 std::string read_text(const SceneOptions& options, const std::string& path) {
     return options.texts != nullptr ? options.texts->at(path) : read_text_file(path);
 }
@@ -149,8 +165,9 @@ Loaded load(const SceneOptions& options, Stage last) {
     timed(loaded, "check", [&] {
         const std::unique_ptr<lang::Importer> importer = make_importer(options, definitions);
         loaded.module = lang::check(loaded.tree, scene_schema(), definitions, loaded.sources,
-                                    loaded.diagnostics, {}, importer.get());
+                                    loaded.diagnostics, {}, importer.get(), options.frame);
     });
+    check_frame(options, loaded);
     if (last < Stage::scene) {
         return loaded;
     }

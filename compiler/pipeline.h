@@ -21,7 +21,9 @@ struct SceneOptions {
     std::vector<std::string> definitions; ///< -D name=value
     std::vector<std::string> asset_paths;
     std::string camera;
-    bool keep_meshes = true; ///< in the user's cache
+    std::optional<std::int64_t> frame; ///< of an animated scene; nothing: its first
+    bool keep_meshes = true;           ///< in the user's cache
+    bool tells_frame = true;           ///< of an animated scene, which one was taken
     /// Null, or the texts of all files of the scene, which then are not read.
     const std::map<std::string, std::string>* texts = nullptr;
 };
@@ -43,7 +45,8 @@ enum class Stage { tokens, tree, module, scene };
 std::string read_text_file(const std::string& path);
 
 /// Reads the file and runs the stages up to `last`; after errors each does what it can, to find more of them.
-/// Throws host::FileError if the scene file cannot be read, host::UsageError for a -D without `=`.
+/// Throws host::FileError if the scene file cannot be read, host::UsageError for a -D without `=` or a
+/// frame that the scene does not have.
 Loaded load(const SceneOptions& options, Stage last);
 
 /// Prints all diagnostics to stderr, what the scene printed, and how many errors there were. True if there

@@ -14,7 +14,11 @@ ProgramScene program_scene(const Loaded& loaded, const SceneOptions& options) {
     ProgramScene scene{.file = fs::path(options.file).filename().string(),
                        .texts = {},
                        .definitions = options.definitions,
-                       .camera = options.camera};
+                       .camera = options.camera,
+                       .frame = {}};
+    if (loaded.module.frames) {
+        scene.frame = loaded.module.frames->chosen;
+    }
     for (lang::FileId id = 0; loaded.sources.contains(id); ++id) {
         const lang::SourceFile& file = loaded.sources.file(id);
         const fs::path path = fs::path(file.path()).lexically_normal().lexically_relative(folder);
@@ -29,6 +33,8 @@ std::string pack(const ProgramScene& scene) {
     const auto add_count = [&](std::size_t count) { values.add(static_cast<std::uint64_t>(count)); };
     values.add_text(scene.file);
     values.add_text(scene.camera);
+    add_count(scene.frame ? 1 : 0);
+    values.add(scene.frame.value_or(0));
     add_count(scene.texts.size());
     for (const auto& [path, text] : scene.texts) {
         values.add_text(path);
@@ -51,6 +57,10 @@ ProgramScene unpack(std::string_view packed) {
     ProgramScene scene;
     scene.file = values.read_text();
     scene.camera = values.read_text();
+    const bool has_frame = read_count() != 0;
+    std::int64_t frame = 0;
+    values.read(frame);
+    scene.frame = has_frame ? std::optional(frame) : std::nullopt;
     for (std::uint64_t left = read_count(); left > 0; --left) {
         std::string path = values.read_text();
         scene.texts.emplace(std::move(path), values.read_text());

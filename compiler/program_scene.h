@@ -2,7 +2,9 @@
 
 #include "compiler/backends/cpp.h"
 
+#include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +20,7 @@ struct ProgramScene {
     std::map<std::string, std::string> texts; ///< by path, relative to the scene's folder
     std::vector<std::string> definitions;     ///< those that it was built with
     std::string camera;                       ///< as --camera
+    std::optional<std::int64_t> frame;        ///< of an animated scene, the one that it was built for
 };
 
 ProgramScene program_scene(const Loaded& loaded, const SceneOptions& options);

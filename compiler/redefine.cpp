@@ -13,6 +13,7 @@ std::string redefine(const host::Redefinition& wanted) {
                          .definitions = kept.definitions,
                          .asset_paths = wanted.asset_paths,
                          .camera = kept.camera,
+                         .frame = kept.frame,
                          .texts = &kept.texts};
     options.definitions.insert(options.definitions.end(), wanted.definitions.begin(),
                                wanted.definitions.end());

@@ -331,7 +331,14 @@ Constructor render() {
                     .doc = "(width, height) in pixels"},
                    {.name = "camera", .type = TypeKind::string, .doc = "its name, where there are several"},
                    {.name = "method", .type = TypeKind::method, .doc = "ray { } or raster { }; else ray { }"},
-                   unsupported("frames", TypeKind::range),
+                   {.name = "frames",
+                    .type = TypeKind::range,
+                    .doc = "of an animation, the last one excluded; `frame` and `time` tell which one it is"},
+                   {.name = "frame_rate",
+                    .type = TypeKind::number,
+                    .default_value = number(24),
+                    .limits = positive("a rate is greater than 0"),
+                    .doc = "frames per second: `time` is `frame / frame_rate`"},
                    {.name = "sampling",
                     .type = TypeKind::string,
                     .default_value = text("center"),
@@ -424,6 +431,33 @@ void add_unsupported(std::vector<Constructor>& rows) {
     }
 }
 
+/// Of what has no text beside its fields.
+constexpr std::pair<std::string_view, std::string_view> docs[] = {
+    {"sphere", "a ball's surface"},
+    {"box", "with faces along the axes, between two corners"},
+    {"plane", "without end, the points p with dot(normalize(normal), p) = offset"},
+    {"cylinder", "around the line between two points, open or closed by caps"},
+    {"cone", "around the line between two points, with a radius at each"},
+    {"disc", "flat and round, with or without a hole"},
+    {"triangle", "three points; with normals at them it looks smooth"},
+    {"point_light", "shines from a point to all sides"},
+    {"directional_light", "shines from one direction everywhere, as the sun does"},
+    {"perspective_camera", "central projection"},
+    {"orthographic_camera", "parallel projection"},
+    {"world", "what surrounds the scene"},
+    {"render", "a picture of the scene"},
+    {"ray", "a picture by casting rays"},
+    {"raster", "a picture by projecting surfaces"},
+};
+
+void add_docs(std::vector<Constructor>& rows) {
+    for (const auto& [name, doc] : docs) {
+        for (Constructor& row : rows) {
+            row.doc = row.name == name ? doc : row.doc;
+        }
+    }
+}
+
 lang::Schema make_schema() {
     lang::Schema schema;
     add_shapes(schema.constructors, runtime::Shapes<double>{});
@@ -431,6 +465,7 @@ lang::Schema make_schema() {
                       orthographic_camera, world, render, ray, raster}) {
         schema.constructors.push_back(make());
     }
+    add_docs(schema.constructors);
     add_unsupported(schema.constructors);
     schema.group = "group";
     return schema;

@@ -1,10 +1,13 @@
 #include "lang/builtins.h"
 
+#include "lang/check.h"
+#include "lang/colorimetry.h"
 #include "lang/components.h"
 #include "lang/transforms.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <unordered_map>
 
 namespace scc::lang {
@@ -111,6 +114,52 @@ Value srgb(BuiltinRun& run, const Arguments& a) {
         v[i] = decode_srgb(run.math, components(a[i]).v[0]);
     }
     return compose(TypeKind::color, v);
+}
+
+Scalar weighted(ScalarMath& math, const Triple& weights, const Components& v) {
+    const Components by{TypeKind::vec3, 3, {Scalar{weights[0]}, Scalar{weights[1]}, Scalar{weights[2]}}};
+    return dot(math, by, v);
+}
+
+Components transformed(ScalarMath& math, const std::array<Triple, 3>& matrix, const Components& v) {
+    Components result{TypeKind::vec3, 3, {}};
+    for (std::size_t i = 0; i < 3; ++i) {
+        result.v[i] = weighted(math, matrix[i], v);
+    }
+    return result;
+}
+
+Value xyz(BuiltinRun& run, const Arguments& a) {
+    const Components v{
+        TypeKind::vec3, 3, {components(a[0]).v[0], components(a[1]).v[0], components(a[2]).v[0]}};
+    return compose(TypeKind::color, transformed(run.math, rec709_from_xyz, v).v);
+}
+
+Value blackbody(BuiltinRun& run, const Arguments& a) {
+    const double kelvin = components(a[0]).v[0].value;
+    if (!(kelvin > 0) || !std::isfinite(kelvin)) {
+        run.report.report(Diag::value_out_of_range, run.span, "the temperature", to_string(a[0]),
+                          "a temperature is in kelvin and greater than 0");
+        return {ErrorValue{}};
+    }
+    const Triple v = blackbody_xyz(kelvin);
+    return xyz(run, {number(v[0]), number(v[1]), number(v[2])});
+}
+
+Value luminance(BuiltinRun& run, const Arguments& a) {
+    return number(weighted(run.math, xyz_from_rec709[1], components(a[0])));
+}
+
+Value chromaticity(BuiltinRun& run, const Arguments& a) {
+    const Components v = transformed(run.math, xyz_from_rec709, components(a[0]));
+    const Scalar sum = run.math.apply(ScalarOp::add, run.math.apply(ScalarOp::add, v.v[0], v.v[1]), v.v[2]);
+    if (sum.is_constant() && sum.value == 0) {
+        run.report.report(Diag::division_by_zero, run.span);
+        return {ErrorValue{}};
+    }
+    run.math.require(ScalarOp::ne, sum, {0});
+    return each(run.math, ScalarOp::div, TypeKind::vec2, Components{TypeKind::vec2, 2, v.v},
+                Components{TypeKind::number, 1, {sum}});
 }
 
 // ---- transforms: all their arguments are known ------------------------------------------------------------
@@ -335,6 +384,17 @@ std::vector<Builtin> make_table() {
         row("srgb", {{"r", "g", "b"}},
             "a colour in display-encoded values from 0 to 1 (IEC 61966-2-1), as a colour picker shows them",
             "srgb(0.5, 0.5, 0.5)", {{{K::number, K::number, K::number}, K::color, srgb}}),
+        row("xyz", {{"x", "y", "z"}},
+            "a colour from CIE 1931 tristimulus values; one that Rec.709 cannot show has negative parts",
+            "xyz(0.9505, 1, 1.089)", {{{K::number, K::number, K::number}, K::color, xyz}}),
+        row("blackbody", {{"kelvin"}},
+            "the colour of a black body of this temperature, scaled to the luminance 1; where Rec.709 cannot "
+            "show it, with negative parts, which `max(blackbody(1500), rgb(0, 0, 0))` cuts off",
+            "blackbody(6500)", {{{K::number}, K::color, blackbody, true}}),
+        row("luminance", {{"c"}}, "the luminance Y of a colour; 1 of rgb(1, 1, 1)", "luminance(rgb(1, 0, 0))",
+            {{{K::color}, K::number, luminance}}),
+        row("chromaticity", {{"c"}}, "the CIE 1931 chromaticity (x, y) of a colour",
+            "chromaticity(rgb(1, 1, 1))", {{{K::color}, K::vec2, chromaticity}}),
         row("translate", {{"offset"}, {"x", "y", "z"}}, "moves by an offset", "translate(1, 2, 3)",
             transforms({{K::vec3}, {K::number, K::number, K::number}}, translate)),
         row("scale", {{"factor"}, {"x", "y", "z"}},
@@ -405,8 +465,7 @@ std::string signature(std::string_view name, const Overload& overload) {
     }
     return text + ") -> " + to_string(overload.result);
 }
-constexpr std::array<std::string_view, 8> unsupported{"xyz",   "blackbody",    "spectrum",  "metal",
-                                                      "frame", "chromaticity", "luminance", "time"};
+constexpr std::array<std::string_view, 2> unsupported{"spectrum", "metal"};
 
 template <class Names>
 bool contains(const Names& names, std::string_view name) {

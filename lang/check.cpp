@@ -29,7 +29,7 @@ FramePtr frame_of(const CheckedFile& file, const FramePtr& outer, Storage& stora
 
 Module check(std::shared_ptr<const ast::File> file, const Schema& schema,
              const std::vector<Definition>& definitions, SourceSet& sources, Diagnostics& diagnostics,
-             const EvaluationLimits& limits, Importer* importer) {
+             const EvaluationLimits& limits, Importer* importer, std::optional<std::int64_t> frame) {
     ImportSession session;
     session.importer = importer;
     const FileId id = file->file;
@@ -48,6 +48,7 @@ Module check(std::shared_ptr<const ast::File> file, const Schema& schema,
     for (const auto& [identity, tree] : session.trees) {
         module.imports.push_back(tree.file);
     }
+    module.frames = evaluator.frames(storage->code, globals, frame);
     module.params = evaluator.params(storage->code, globals);
     evaluator.imports(storage->code);
     module.items = evaluator.run(storage->code.body, globals);

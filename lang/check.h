@@ -33,6 +33,14 @@ struct Param {
     Span span;
 };
 
+/// The pictures of an animation, and the one that the scene was evaluated for.
+struct Frames {
+    std::int64_t begin = 0;
+    std::int64_t end = 1; ///< excluded
+    double rate = 24;     ///< frames per second
+    std::int64_t chosen = 0;
+};
+
 /// What bounds a run on hostile input; exceeding one is a clear error.
 struct EvaluationLimits {
     std::uint64_t steps = 50'000'000; ///< expressions evaluated
@@ -50,6 +58,7 @@ struct EvaluationLimits {
 struct Module {
     std::vector<ThingPtr> items;
     std::vector<Param> params;       ///< those of imports too, as `name.param`
+    std::optional<Frames> frames;    ///< nothing: a single picture
     std::vector<FileId> imports;     ///< every file that was imported, once
     std::vector<std::string> prints; ///< what `print` said, in order
     std::shared_ptr<const void> storage;
@@ -58,10 +67,11 @@ struct Module {
 /// Types every expression of the file against the schema and evaluates what is right, reporting all errors.
 /// After errors, those of the parser too, the module holds the things that have no mistake in them. A `-D`
 /// that names no `param` is reported at no place (Span{}) as unknown-param. Without an importer nothing can
-/// be imported.
+/// be imported. `frame` is the one to evaluate an animated scene for, else its first.
 Module check(std::shared_ptr<const ast::File> file, const Schema& schema,
              const std::vector<Definition>& definitions, SourceSet& sources, Diagnostics& diagnostics,
-             const EvaluationLimits& limits = {}, Importer* importer = nullptr);
+             const EvaluationLimits& limits = {}, Importer* importer = nullptr,
+             std::optional<std::int64_t> frame = {});
 
 /// Runs a per-point function on an unknown surface and hands every operation to the builder. Returns one
 /// scalar for a number, three for a colour or vector; constant where the function does not depend on the

@@ -3,6 +3,7 @@
 #include "lang/units.h"
 #include "lang/wording.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -47,6 +48,25 @@ TypeKind result_kind(ast::BinaryOp op, TypeKind left, TypeKind right) {
     default:
         return arithmetic_result(op, left, right);
     }
+}
+
+/// A function value of what is most likely meant: the overload that takes numbers, else the first one.
+std::string as_lambda(const Builtin& builtin) {
+    const auto takes_numbers = [](const Overload& overload) {
+        return std::all_of(overload.parameters.begin(), overload.parameters.end(),
+                           [](const Type& type) { return type.kind == TypeKind::number; });
+    };
+    const auto& overloads = builtin.overloads;
+    auto chosen = std::find_if(overloads.begin(), overloads.end(), takes_numbers);
+    chosen = chosen == overloads.end() ? overloads.begin() : chosen;
+    std::string formals;
+    std::string names;
+    for (std::size_t i = 0; i < chosen->parameters.size(); ++i) {
+        const char* joint = i == 0 ? "" : ", ";
+        formals += fmt::format("{}{}: {}", joint, chosen->names[i], to_string(chosen->parameters[i]));
+        names += fmt::format("{}{}", joint, chosen->names[i]);
+    }
+    return fmt::format("fn({}) = {}({})", formals, builtin.name, names);
 }
 
 std::vector<std::string_view> members_of(TypeKind kind) {
@@ -125,6 +145,9 @@ Typed Checker::check(const ast::NameRef& node, const ast::Expr& expr, const Plac
     if (node.name == "pi") {
         return constant(TypeKind::number, number(std::numbers::pi), expr.span);
     }
+    if (is_frame_name(node.name) && !is_lost(node.name)) {
+        return frame_number(node.name, expr.span);
+    }
     return unknown_name(node, expr.span, place);
 }
 
@@ -136,9 +159,12 @@ Typed Checker::unknown_name(const ast::NameRef& node, Span span, const Place& pl
     } else if (is_statement(node.name)) {
         diagnostics_.report(Diag::misplaced_statement, span, node.name);
     } else if (find_builtin(node.name) || is_list_function(node.name)) {
-        diagnostics_.report(Diag::bare_builtin, span, in_code(node.name));
+        Diagnostic& diagnostic = diagnostics_.report(Diag::bare_builtin, span, in_code(node.name));
+        if (const Builtin* builtin = find_builtin(node.name)) {
+            diagnostic.suggest(span, as_lambda(*builtin));
+        }
     } else {
-        return unknown(node.name, span, place, {"pi"});
+        return unknown(node.name, span, place, {"pi", "frame", "time"});
     }
     return {};
 }

@@ -39,6 +39,9 @@ bool defines_names(const std::vector<ast::Item>& items) {
 CheckedFile Checker::run(const ast::File& file, const std::vector<Definition>& given) {
     lost_names_ = &file.lost_names;
     find_unit(file);
+    if (!is_imported_) {
+        find_frames(file);
+    }
     CheckedFile checked;
     Scope& scope = names_.add_scope(nullptr);
     file_scope_ = &scope;
@@ -63,6 +66,9 @@ CheckedFile Checker::run(const ast::File& file, const std::vector<Definition>& g
     }
     close(scope, checked.body.cells);
     checked.imports = std::move(imports_);
+    if (!is_imported_) {
+        find_frames_code(checked);
+    }
     for (const Definition& definition : given) {
         this->definition(definition, definition.name, checked);
     }
@@ -79,6 +85,8 @@ Binding& Checker::bind(Scope& scope, Binding::Kind kind, const ast::Name& name, 
         diagnostics_.report(Diag::shadowed_name, name.span, name.text, "built-in function");
     } else if (name.text == "pi") {
         diagnostics_.report(Diag::shadowed_name, name.span, name.text, "constant");
+    } else if (session_.has_frames && is_frame_name(name.text)) {
+        diagnostics_.report(Diag::shadowed_name, name.span, name.text, "number");
     }
     return names_.bind(scope, kind, name.text, name.span, owner);
 }

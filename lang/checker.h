@@ -32,7 +32,15 @@ struct CheckedFile {
     CheckedFile& operator=(CheckedFile&&) noexcept;
     ~CheckedFile();
 
+    /// The `render` that has frames; null: none has.
+    struct Animated {
+        const code::Construct* render = nullptr;
+        const Code* frames = nullptr;
+        const Code* rate = nullptr; ///< null: the default
+    };
+
     std::vector<std::unique_ptr<ImportedFile>> imports;
+    Animated animated;
     BodyCode body;
     std::vector<ParamCode> params;
     std::deque<FunctionCode> functions;
@@ -139,6 +147,12 @@ private:
     Binding* imported_binding(Binding& import, const ast::Name& name, const Place& place);
     Typed imported_member(Binding& import, const ast::Name& name, Span span, const Place& place);
     Typed imported_value(const Binding& import, const Binding& binding, Span span);
+
+    // check_frames.cpp
+    void find_frames(const ast::File& file);
+    static void find_frames_code(CheckedFile& file);
+    static bool is_frame_name(std::string_view name);
+    Typed frame_number(std::string_view name, Span span);
 
     // check_things.cpp
     Typed check(const ast::Construct& node, const ast::Expr& expr, const Place& place);

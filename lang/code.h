@@ -102,6 +102,9 @@ struct ImportedScene { ///< `name.scene`
 struct Given { ///< a value of an import's `with`: computed among the names of the importing file
     CodePtr value;
 };
+struct FrameNumber { ///< `frame`, or `time`
+    bool in_seconds;
+};
 struct Construct {
     const Constructor* constructor;
     BodyCode body;
@@ -152,7 +155,7 @@ struct Code {
     std::variant<code::Failed, code::Constant, code::Variable, code::FunctionValue, code::Unary, code::Binary,
                  code::Tuple, code::List, code::Comprehension, code::Conditional, code::Component,
                  code::SurfaceInput, code::BuiltinCall, code::ListCall, code::Call, code::Index,
-                 code::Imported, code::ImportedScene, code::Given, code::Construct>
+                 code::Imported, code::ImportedScene, code::Given, code::FrameNumber, code::Construct>
         node;
     Span span;
 };

@@ -32,7 +32,9 @@ Value Evaluator::run(const code::BuiltinCall& node, Span span, const FramePtr& f
     }
     if (has_unknowns() && node.overload->needs_constants &&
         !std::all_of(arguments.begin(), arguments.end(), is_known)) {
-        return depends_on_surface(span, "this transform", "transforms are known before a ray is cast");
+        return node.overload->result.kind == TypeKind::transform
+                   ? depends_on_surface(span, "this transform", "transforms are known before a ray is cast")
+                   : depends_on_surface(span, "this argument", "this function takes what is known");
     }
     if (tracing() && !node.overload->per_point &&
         !std::all_of(arguments.begin(), arguments.end(), is_known)) {

@@ -31,6 +31,10 @@ public:
     std::vector<ThingPtr> run(const BodyCode& file, const FramePtr& globals);
     /// The params of the file, then those of its imports as `name.param`.
     std::vector<Param> params(const CheckedFile& file, const FramePtr& globals);
+    /// What the file's `render` says, with the frame that `frame` and `time` tell from here on: the first
+    /// one, if none is chosen.
+    std::optional<Frames> frames(const CheckedFile& file, const FramePtr& globals,
+                                 std::optional<std::int64_t> chosen);
     /// Evaluates what the file imports, then the items of those files.
     void imports(const CheckedFile& file);
     Value call(const FunctionCode& function, const FramePtr& frame, std::vector<Value> arguments, Span span);
@@ -80,6 +84,8 @@ private:
     Value run(const code::Imported& node, Span span, const FramePtr& frame);
     Value run(const code::ImportedScene& node, Span span, const FramePtr& frame);
     Value run(const code::Given& node, Span span, const FramePtr& frame);
+    // eval_frames.cpp
+    Value run(const code::FrameNumber& node, Span span, const FramePtr& frame);
     Value eval_where(const Scalar& condition, bool holds, const Code& code, const FramePtr& frame);
     Value logical(const code::Binary& node, const FramePtr& frame);
     Value operate(const code::Binary& node, const Value& left, const Value& right, Span span);
@@ -151,6 +157,7 @@ private:
     std::vector<Activation> calls_;
     const std::vector<ThingPtr>* siblings_ = nullptr; ///< of a thing that is built now
     std::vector<std::string> prints_;
+    std::optional<Frames> frames_;   ///< nothing: not known yet
     Recording* recording_ = nullptr; ///< of a loop's body, while it is recorded
     std::vector<std::pair<FramePtr, std::uint32_t>>* tried_cells_ =
         nullptr; ///< those that may have to be forgotten

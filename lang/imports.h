@@ -41,6 +41,8 @@ struct ImportSession {
     std::vector<OpenFile> open;        ///< the scene's own file, then each that the next one is imported by
     std::map<std::string, Tree> trees; ///< by identity: a file is read and parsed once
     std::size_t count = 0;
+    bool has_frames = false; ///< a `render` of the scene's own file has `frames`
+    Fix frames_fix;          ///< what would make it so
 };
 
 /// An import as the importing file's checker sees it: the names of the imported file with their types.

@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <string>
@@ -69,6 +70,32 @@ Json to_json(const lang::SourceSet& sources, const lang::Diagnostic& diagnostic)
     return json;
 }
 
+bool same(const lang::Diagnostic& a, const lang::Diagnostic& b) {
+    return a.kind == b.kind && a.span == b.span && a.message == b.message;
+}
+
+/// The scene; of an animated one its last frame too, with what only goes wrong there.
+Loaded load_all(SceneOptions scene) {
+    scene.tells_frame = false;
+    Loaded loaded = load(scene, Stage::scene);
+    const std::optional<lang::Frames> frames = loaded.module.frames;
+    if (!frames || scene.frame || frames->end - frames->begin == 1) {
+        return loaded;
+    }
+    scene.frame = frames->end - 1;
+    const Loaded last = load(scene, Stage::scene);
+    const std::vector<lang::Diagnostic> known = loaded.diagnostics.sorted();
+    for (lang::Diagnostic& diagnostic : last.diagnostics.sorted()) {
+        const bool is_new = std::none_of(known.begin(), known.end(),
+                                         [&](const auto& other) { return same(other, diagnostic); });
+        if (is_new) {
+            diagnostic.note(diagnostic.span, fmt::format("in frame {}", *scene.frame));
+            loaded.diagnostics.add(std::move(diagnostic));
+        }
+    }
+    return loaded;
+}
+
 using FixCounts = std::map<std::string, std::size_t>; ///< by file
 
 /// Writes the fixes of one file into it, which leaves it whole. True if there were any.
@@ -89,7 +116,7 @@ Loaded mend(const SceneOptions& scene, FixCounts& fixed) {
     constexpr int most_rounds = 20; // a fix that leads to another one can go on for ever
     constexpr lang::FileId scene_file = 0;
     for (int round = 0;; ++round) {
-        Loaded loaded = load(scene, Stage::scene);
+        Loaded loaded = load_all(scene);
         if (round == most_rounds) {
             return loaded;
         }
@@ -111,7 +138,7 @@ int check(const CheckOptions& options) {
         SceneOptions scene = options.scene;
         scene.file = file;
         FixCounts counts;
-        Loaded loaded = options.fix ? mend(scene, counts) : load(scene, Stage::scene);
+        Loaded loaded = options.fix ? mend(scene, counts) : load_all(scene);
         for (const auto& [path, count] : counts) {
             fmt::print(stderr, "{}: {} fix{} made\n", path, count, count == 1 ? "" : "es");
             fixed += count;
@@ -154,7 +181,9 @@ Json to_json(const lang::Param& param) {
 }
 
 int list_params(const ParamsOptions& options) {
-    const Loaded loaded = load(options.scene, Stage::module);
+    SceneOptions scene = options.scene;
+    scene.tells_frame = false;
+    const Loaded loaded = load(scene, Stage::module);
     if (!report(loaded)) {
         return host::exit_scene;
     }

@@ -45,6 +45,7 @@ void add_import(CLI::App& app, Run& selected);
 void add_validate(CLI::App& app, Run& selected);
 void add_compare(CLI::App& app, Run& selected);
 void add_doctor(CLI::App& app, Run& selected);
+void add_reference(CLI::App& app, Run& selected);
 
 /// The options that name a scene: FILE, -D, --asset-path, --camera.
 void add_scene_options(CLI::App& app, SceneOptions& options);

@@ -22,6 +22,10 @@ void add_scene_values(CLI::App& app, SceneOptions& options) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.add_option("--camera", options.camera, "which camera, where the scene has several")
         ->type_name("NAME");
+    app.add_option_function<std::int64_t>(
+           "--frame", [&options](std::int64_t frame) { options.frame = frame; },
+           "which frame of an animated scene; the first one, if it is left out")
+        ->type_name("N");
 }
 
 void add_scene_options(CLI::App& app, SceneOptions& options) {

@@ -134,6 +134,7 @@ TEST(Calls, OfListFunctions) {
         R"(a.scn:1:16: error: the built-in function `sqrt` stands without ( ); as a value it is wrapped in `fn` [bare-builtin]
     1 | print(map([1], sqrt))
       |                ^~~~
+      |                fn(x: number) = sqrt(x)
 )");
 }
 

@@ -87,6 +87,8 @@ inline const Schema& toy_schema() {
             thing("world", TypeKind::setting,
                   {choice("unit", {"mm", "cm", "m", "km", "inch"}), field("background", TypeKind::color)}),
             thing("picture", TypeKind::image, {}),
+            thing("render", TypeKind::setting,
+                  {field("frames", TypeKind::range), limited("frame_rate", TypeKind::number, positive)}),
             thing("output", TypeKind::setting,
                   {limited("size", TypeKind::vec2, whole), limited("samples", TypeKind::number, square),
                    choice("shading", {"flat", "smooth"})}),
@@ -105,12 +107,12 @@ struct Scene : Front {
 
     explicit Scene(std::string_view text, const std::vector<Definition>& definitions = {},
                    const EvaluationLimits& limits = {}, bool in_tables = false,
-                   const MemoryImporter::Files& files = {})
+                   const MemoryImporter::Files& files = {}, std::optional<std::int64_t> frame = {})
         : Front(text) {
         MemoryImporter importer(files);
         const auto tree = in_tables ? read_file(sources, file, diagnostics) : parse();
         module = check(tree, toy_schema(), definitions, sources, diagnostics, limits,
-                       files.empty() ? nullptr : &importer);
+                       files.empty() ? nullptr : &importer, frame);
     }
 };
 

@@ -18,8 +18,8 @@ using Lines = std::vector<std::string>;
 TEST_F(CommandLine, HelpNamesEveryCommand) {
     const auto result = scc({"--help"});
     EXPECT_TRUE(result.ok());
-    for (const char* command :
-         {"check", "fmt", "params", "render", "build", "export", "import", "validate", "compare", "doctor"}) {
+    for (const char* command : {"check", "fmt", "params", "render", "build", "export", "import", "validate",
+                                "compare", "doctor", "reference"}) {
         EXPECT_NE(result.out.find(command), std::string::npos) << command;
     }
 }
@@ -548,6 +548,72 @@ TEST_F(CommandLine, FixesGoIntoTheFileThatHasTheMistake) {
     EXPECT_EQ(result.err, "a.scn: 1 fix made\npart.scn: 1 fix made\n");
     EXPECT_EQ(read("part.scn"), "sphere { radius = 2 }\n");
     EXPECT_NE(read("a.scn").find("fov_y = 40deg"), std::string::npos);
+}
+
+// ---- frames --------------------------------------------------------------------------------------------
+
+constexpr const char* animation =
+    "sphere { center = (frame, 0, 0), radius = 0.5 + time }\nperspective_camera { }\n"
+    "point_light { position = (3, 4, 5) }\n"
+    "render { frames = 0..3, frame_rate = 2, size = (32, 24) }\n";
+
+TEST_F(CommandLine, FramesAreDrawnIntoFilesOfTheirOwn) {
+    write("a.scn", animation);
+    const auto result =
+        scc({"render", "a.scn", "--frames", "1..3", "-o", "out_##.pfm", "--progress", "never"});
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_EQ(scc({"render", "a.scn", "--frames", "2..3", "-o", "out.pfm", "--progress", "never"}).code, 0);
+    EXPECT_EQ(files(), (std::vector<std::string>{"a.scn", "out_0002.pfm", "out_01.pfm", "out_02.pfm"}));
+    write("b.scn", "sphere { center = (2, 0, 0), radius = 1.5 }\nperspective_camera { }\n"
+                   "point_light { position = (3, 4, 5) }\nrender { size = (32, 24) }\n");
+    EXPECT_EQ(scc({"render", "b.scn", "-o", "b.pfm", "--progress", "never"}).code, 0);
+    EXPECT_EQ(read("out_02.pfm"), read("b.pfm"));
+    EXPECT_EQ(scc({"render", "a.scn", "--frame", "2", "-o", "one.pfm", "--progress", "never"}).err, "");
+    EXPECT_EQ(read("one.pfm"), read("b.pfm"));
+}
+
+TEST_F(CommandLine, FramesThatTheSceneLacksAreUsageErrors) {
+    write("a.scn", animation);
+    write("b.scn", small_scene);
+    const auto late = scc({"render", "a.scn", "--frame", "3", "-o", "a.pfm"});
+    EXPECT_EQ(late.code, 2);
+    EXPECT_EQ(late.err,
+              "scc: error: there is no frame 3; the scene has the frames 0..3, the last one excluded\n");
+    EXPECT_EQ(scc({"render", "b.scn", "--frame", "0", "-o", "a.pfm"}).code, 2);
+    for (const char* wrong : {"3..1", "1", "a..b", "1..2x", ".."}) {
+        EXPECT_EQ(scc({"render", "a.scn", "--frames", wrong, "-o", "a.pfm"}).code, 2) << wrong;
+    }
+    EXPECT_EQ(scc({"render", "a.scn", "--frames", "0..2", "--frame", "1", "-o", "a.pfm"}).code, 2);
+    EXPECT_EQ(files(), (std::vector<std::string>{"a.scn", "b.scn"}));
+}
+
+TEST_F(CommandLine, CheckLooksAtTheLastFrameToo) {
+    write("a.scn",
+          "sphere { radius = 2 - frame }\nperspective_camera { }\npoint_light { position = (3, 4, 5) }\n"
+          "render { frames = 0..3 }\n");
+    const auto result = scc({"check", "a.scn"});
+    EXPECT_EQ(result.code, 1);
+    EXPECT_EQ(result.err, R"(a.scn:1:19: error: radius is 0; a radius is greater than 0 [value-out-of-range]
+    1 | sphere { radius = 2 - frame }
+      |                   ^~~~~~~~~
+a.scn:1:19: note: in frame 2
+1 error
+)");
+    write("a.scn", animation);
+    EXPECT_EQ(scc({"check", "a.scn"}).err, "");
+}
+
+TEST_F(CommandLine, CheckGivesASceneTheFramesThatItUses) {
+    write("a.scn",
+          "sphere { radius = 2 + frame }\nperspective_camera { }\npoint_light { position = (3, 4, 5) }\n"
+          "render { size = (4, 3) }\n");
+    EXPECT_EQ(scc({"check", "--fix", "a.scn"}).code, 0);
+    EXPECT_NE(read("a.scn").find("render { frames = 0..48, size = (4, 3) }"), std::string::npos)
+        << read("a.scn");
+    write("b.scn",
+          "sphere { radius = 2 + frame }\nperspective_camera { }\npoint_light { position = (3, 4, 5) }\n");
+    EXPECT_EQ(scc({"check", "--fix", "b.scn"}).code, 0);
+    EXPECT_NE(read("b.scn").find("\nrender { frames = 0..48 }\n"), std::string::npos) << read("b.scn");
 }
 
 } // namespace scc::cli::test
