@@ -4,6 +4,7 @@
 #include "lang/evaluator.h"
 #include "lang/frame.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace scc::lang {
@@ -35,6 +36,33 @@ Module check(std::shared_ptr<const ast::File> file, const Schema& schema,
     module.prints = evaluator.take_prints();
     report.flush(diagnostics);
     return module;
+}
+
+SymbolIndex find_symbols(const ast::File& file, const Schema& schema, SourceSet& sources) {
+    Diagnostics ignored;
+    SymbolIndex symbols;
+    Checker(schema, sources, ignored, {}, &symbols).run(file, {});
+    return symbols;
+}
+
+std::optional<std::string> evaluate_name(std::shared_ptr<const ast::File> file, Span name, const Schema& schema,
+                                   SourceSet& sources, const EvaluationLimits& limits) {
+    Diagnostics ignored;
+    Storage storage{std::move(file), {}, {}};
+    storage.code = Checker(schema, sources, ignored, limits).run(*storage.file, {});
+    const auto& names = storage.code.cells;
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+        return std::nullopt;
+    }
+    RunReport report;
+    Evaluator evaluator(limits, report);
+    const FramePtr globals = std::make_shared<Frame>(nullptr, storage.code.body.cells, &storage.captured, 0);
+    const Value value = evaluator.cell(globals, static_cast<std::uint32_t>(found - names.begin()));
+    const bool is_plain = !std::holds_alternative<ErrorValue>(value.v) &&
+                          !std::holds_alternative<ClosurePtr>(value.v) &&
+                          !std::holds_alternative<ThingPtr>(value.v);
+    return is_plain ? std::optional(to_string(value)) : std::nullopt;
 }
 
 std::vector<Scalar> trace(const ClosurePtr& function, SymbolBuilder& builder, Diagnostics& diagnostics) {

@@ -9,6 +9,7 @@
 #include "lang/scope.h"
 #include "lang/source.h"
 #include "lang/stack_guard.h"
+#include "lang/symbols.h"
 
 #include <deque>
 #include <map>
@@ -24,6 +25,7 @@ namespace scc::lang {
 /// What the static pass makes of a file; complete only if it reported no error.
 struct CheckedFile {
     BodyCode body;
+    std::vector<Span> cells; ///< the names whose values the cells of `body` hold
     std::vector<ParamCode> params;
     std::deque<FunctionCode> functions;
     std::deque<ast::File> expanded; ///< rows of tables that the code refers to
@@ -50,10 +52,11 @@ struct Place {
 /// type.
 class Checker {
 public:
+    /// With `symbols`, what the names stand for goes there.
     Checker(const Schema& schema, SourceSet& sources, Diagnostics& diagnostics,
-            const EvaluationLimits& limits)
+            const EvaluationLimits& limits, SymbolIndex* symbols = nullptr)
         : schema_(schema), sources_(sources), diagnostics_(diagnostics), limits_(limits),
-          names_(diagnostics) {}
+          names_(diagnostics), symbols_(symbols) {}
 
     CheckedFile run(const ast::File& file, const std::vector<Definition>& definitions);
 
@@ -94,6 +97,9 @@ private:
     std::vector<Binding*> declare(const std::vector<ast::Item>& items, const Place& place, bool at_top);
     Binding& bind(Scope& scope, Binding::Kind kind, const ast::Name& name, Binding* owner);
     void check_definitions(const std::vector<Binding*>& bindings);
+    void mention(Span definition, Span span, const Place& place);
+    void add_symbols();
+    Span without_brackets(Span span);
     std::vector<ItemCode> items(const std::vector<ast::Item>& items, const Around& around,
                                 const Place& place);
     BodyCode body(const ast::Body& body, const Around& around, const Place& place);
@@ -135,8 +141,8 @@ private:
     std::vector<Type> formal_types(const std::vector<ast::Formal>& formals);
     void defaults(const std::vector<ast::Formal>& formals, const std::vector<Type>& types, const Place& place,
                   FunctionCode& function);
-    Scope& bind_formals(const std::vector<ast::Formal>& formals, const std::vector<Type>& types, Scope* outer,
-                        Binding* owner);
+    Scope& bind_formals(const std::vector<ast::Formal>& formals, const std::vector<Type>& types,
+                        const Place& outer, Span extent);
     Type type(const ast::TypeExpr* written);
     Type bounded(Type type, Span span);
 
@@ -177,9 +183,9 @@ private:
     Typed list_call(const ast::Call& node, std::string_view name, Span span, const Place& place);
     Typed constructor_call(std::string_view name, Span name_span, Span span);
     static constexpr std::size_t no_parameter = static_cast<std::size_t>(-1);
-    std::size_t parameter_of(const ast::Call& node, std::size_t argument, const Binding& function);
-    std::size_t parameter_index(const std::vector<ast::Formal>& formals, const ast::Name& name,
-                                const Binding& function);
+    std::size_t parameter_of(const ast::Call& node, std::size_t argument, const Binding& function,
+                             const Place& place);
+    std::size_t parameter_index(const ast::Name& name, const Binding& function, const Place& place);
     std::vector<Typed> arguments(const ast::Call& node, std::string_view subject, const Place& place);
     bool argument_count(std::size_t wanted, std::string_view subject, const ast::Call& node, Span span);
     void no_overload(const ast::Call& node, const Builtin& builtin, std::vector<Typed>& values, Span span);
@@ -202,6 +208,8 @@ private:
     Diagnostics& diagnostics_;
     EvaluationLimits limits_;
     Names names_;
+    SymbolIndex* symbols_; ///< null: nobody asked
+    std::vector<Names::Found> mentions_;
     std::deque<FunctionCode> functions_;
     std::deque<ast::ExprPtr> given_;
     std::deque<ast::File> expanded_;

@@ -29,6 +29,8 @@ public:
     std::vector<ThingPtr> run(const BodyCode& file, const FramePtr& globals);
     std::vector<Param> params(const std::vector<ParamCode>& params, const FramePtr& globals);
     Value call(const FunctionCode& function, const FramePtr& frame, std::vector<Value> arguments, Span span);
+    /// The value of a name.
+    Value cell(const FramePtr& frame, std::uint32_t index);
 
     std::vector<std::string> take_prints() { return std::move(prints_); }
 
@@ -41,7 +43,6 @@ private:
     };
 
     Value eval(const Code& code, const FramePtr& frame);
-    Value cell(const FramePtr& frame, std::uint32_t index);
     bool step(Span span);
     void stop(Diag kind, Span span, std::uint64_t limit);
     Value failed() { return {ErrorValue{}}; }

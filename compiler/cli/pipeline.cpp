@@ -104,13 +104,13 @@ void timed(Loaded& loaded, const char* stage, Run run) {
     loaded.times_ms.emplace_back(stage, gone.count());
 }
 
-} // namespace
-
-Loaded load(const SceneOptions& options, Stage last) {
+// Reading the text counts as parsing.
+template <class Read>
+Loaded load_from(const SceneOptions& options, const Read& read, Stage last) {
     Loaded loaded;
     const std::vector<lang::Definition> definitions = parse_definitions(options.definitions);
     timed(loaded, "parse", [&] {
-        const lang::FileId file = loaded.sources.add(options.file, read_text_file(options.file));
+        const lang::FileId file = loaded.sources.add(options.file, read());
         if (last >= Stage::module) {
             loaded.tree = lang::read_file(loaded.sources, file, loaded.diagnostics);
             return;
@@ -144,6 +144,16 @@ Loaded load(const SceneOptions& options, Stage last) {
         timed(loaded, "passes", [&] { compiler::run_passes(loaded.scene); });
     }
     return loaded;
+}
+
+} // namespace
+
+Loaded load(const SceneOptions& options, Stage last) {
+    return load_from(options, [&] { return read_text_file(options.file); }, last);
+}
+
+Loaded load_text(const SceneOptions& options, std::string text, Stage last) {
+    return load_from(options, [&] { return std::move(text); }, last);
 }
 
 bool report(const Loaded& loaded) {

@@ -41,6 +41,8 @@ std::string read_text_file(const std::string& path);
 /// Reads the file and runs the stages up to `last`; after errors each does what it can, to find more of them.
 /// Throws host::FileError if the scene file cannot be read, host::UsageError for a -D without `=`.
 Loaded load(const SceneOptions& options, Stage last);
+/// The same for a text that stands for the file, as an editor's unsaved one.
+Loaded load_text(const SceneOptions& options, std::string text, Stage last);
 
 /// Prints all diagnostics to stderr, what the scene printed, and how many errors there were. True if there
 /// were none.

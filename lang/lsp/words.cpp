@@ -1,0 +1,128 @@
+#include "lang/lsp/words.h"
+
+#include "lang/builtins.h"
+#include "lang/check.h"
+#include "lang/wording.h"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <utility>
+
+namespace scc::lang::lsp {
+namespace {
+
+/// The functions that the checker types by their arguments.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> special_forms{{
+    {"map", "map([A], fn(A) -> B) -> [B]"},
+    {"filter", "filter([A], fn(A) -> bool) -> [A]"},
+    {"sum", "sum([A]) -> A"},
+    {"len", "len([A]) -> number"},
+    {"assert", "assert(bool, string)"},
+    {"print", "print(A)"},
+}};
+
+std::string sentence(std::string_view text) {
+    return text.empty() ? "" : fmt::format("{}.\n\n", text);
+}
+
+std::string signature(std::string_view name, const Overload& overload) {
+    std::string text(name);
+    const char* joint = "(";
+    for (const Type& type : overload.parameters) {
+        text += joint + to_string(type);
+        joint = ", ";
+    }
+    return text + ") -> " + to_string(overload.result);
+}
+
+std::string_view keyword(SymbolKind kind) {
+    switch (kind) {
+    case SymbolKind::let:
+        return "let ";
+    case SymbolKind::param:
+        return "param ";
+    case SymbolKind::function:
+        return "fn ";
+    case SymbolKind::alias:
+        return "import ";
+    case SymbolKind::variable:
+        break;
+    }
+    return "";
+}
+
+/// The parameters as they are written: with names and defaults. Empty if they cannot be found.
+std::string_view formals_of(const Symbol& function, const Analysis& analysis) {
+    const std::string_view text =
+        analysis.text({function.span.file, function.span.end, function.extent.end});
+    int depth = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        depth += text[i] == '(' ? 1 : text[i] == ')' ? -1 : 0;
+        if (depth == 0) {
+            return text.substr(0, text[i] == ')' ? i + 1 : 0);
+        }
+    }
+    return {};
+}
+
+} // namespace
+
+std::string declaration(const Field& field) {
+    const std::string text = fmt::format("{}: {}", field.name, to_string(field.type));
+    return field.default_value ? fmt::format("{} = {}", text, to_string(*field.default_value)) : text;
+}
+
+std::string description(const Field& field) {
+    std::string text = sentence(field.doc) + sentence(rule_of(field));
+    text += field.choices.empty() ? "" : sentence(choice_rule(field));
+    text += field.required ? sentence("it has to be set") : "";
+    text += field.per_point ? sentence(fmt::format("also a function `fn(surface) -> {}`", to_string(field.type)))
+                            : "";
+    return text;
+}
+
+std::string declaration(const Constructor& constructor) {
+    std::string text = fmt::format("{} {{", constructor.name);
+    const char* joint = " ";
+    for (const Field& field : constructor.fields) {
+        if (field.supported) {
+            text += joint + std::string(field.name);
+            joint = ", ";
+        }
+    }
+    return fmt::format("{} }}: {}", text, to_string(constructor.type));
+}
+
+std::string description(const Constructor& constructor) {
+    return sentence(constructor.doc) + (constructor.takes_children ? sentence("it takes shapes as items") : "");
+}
+
+std::string declaration(const Symbol& symbol, const Analysis& analysis) {
+    const std::string name = fmt::format("{}{}", keyword(symbol.kind), symbol.name);
+    if (symbol.kind == SymbolKind::function && symbol.type.kind == TypeKind::function) {
+        return fmt::format("{}{} -> {}", name, formals_of(symbol, analysis), to_string(symbol.type.args.back()));
+    }
+    return symbol.type.kind == TypeKind::error ? name : fmt::format("{}: {}", name, to_string(symbol.type));
+}
+
+std::vector<std::string> signatures(std::string_view function) {
+    for (const auto& [name, form] : special_forms) {
+        if (name == function) {
+            return {std::string(form)};
+        }
+    }
+    std::vector<std::string> forms;
+    if (const Builtin* builtin = find_builtin(function)) {
+        for (const Overload& overload : builtin->overloads) {
+            forms.push_back(signature(function, overload));
+        }
+    }
+    return forms;
+}
+
+Json markdown(const std::string& code, const std::string& text) {
+    return {{"kind", "markdown"}, {"value", fmt::format("```scn\n{}\n```\n{}", code, text)}};
+}
+
+} // namespace scc::lang::lsp
