@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <csignal>
 #include <memory>
 #include <unistd.h>
@@ -34,9 +35,9 @@ std::vector<lang::lsp::ObjectPlace> object_places(const compiler::ir::Scene& sce
     for (const compiler::ir::ObjectArray& array : scene.arrays) {
         for (const compiler::ir::ObjectColumn& column : array.columns) {
             if (!column.places) {
-                places.push_back({column.span.begin, column.path_of(0), array.count});
+                places.push_back({column.span.begin, column.path_of(0), array.rounds});
             }
-            for (std::size_t i = 0; column.places && i < std::min(array.count, most_of_a_column); ++i) {
+            for (std::size_t i = 0; column.places && i < std::min(array.rounds, most_of_a_column); ++i) {
                 places.push_back({column.span_of(i).begin, column.path_of(i), 1});
             }
         }
@@ -71,7 +72,6 @@ void add_lsp(CLI::App& app, Run& selected) {
     CLI::App* command = app.add_subcommand(
         "lsp", "serve editors: the Language Server Protocol over standard input and output");
     add_scene_values(*command, options->scene);
-    command->add_flag("--stdio", "what clients say who could also speak over sockets");
     command->add_flag("--print-grammar", options->print_grammar,
                       "only print the TextMate grammar of the language");
     command->callback([&selected, options] { selected = [options] { return serve(*options); }; });

@@ -6,6 +6,7 @@
 #include "lang/wording.h"
 
 #include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <initializer_list>
