@@ -45,8 +45,9 @@ SymbolIndex find_symbols(const ast::File& file, const Schema& schema, SourceSet&
     return symbols;
 }
 
-std::optional<std::string> evaluate_name(std::shared_ptr<const ast::File> file, Span name, const Schema& schema,
-                                   SourceSet& sources, const EvaluationLimits& limits) {
+std::optional<std::string> evaluate_name(std::shared_ptr<const ast::File> file, Span name,
+                                         const Schema& schema, SourceSet& sources,
+                                         const EvaluationLimits& limits) {
     Diagnostics ignored;
     Storage storage{std::move(file), {}, {}};
     storage.code = Checker(schema, sources, ignored, limits).run(*storage.file, {});

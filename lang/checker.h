@@ -55,8 +55,8 @@ public:
     /// With `symbols`, what the names stand for goes there.
     Checker(const Schema& schema, SourceSet& sources, Diagnostics& diagnostics,
             const EvaluationLimits& limits, SymbolIndex* symbols = nullptr)
-        : schema_(schema), sources_(sources), diagnostics_(diagnostics), limits_(limits),
-          names_(diagnostics), symbols_(symbols) {}
+        : schema_(schema), sources_(sources), diagnostics_(diagnostics), limits_(limits), names_(diagnostics),
+          symbols_(symbols) {}
 
     CheckedFile run(const ast::File& file, const std::vector<Definition>& definitions);
 

@@ -490,7 +490,8 @@ std::string format(const SourceSet& sources, const std::vector<Token>& tokens, c
     return Formatter(sources.file(file.file), tokens, file).run();
 }
 
-std::string checked_format(const SourceSet& sources, const std::vector<Token>& tokens, const ast::File& file) {
+std::string checked_format(const SourceSet& sources, const std::vector<Token>& tokens,
+                           const ast::File& file) {
     std::string result = format(sources, tokens, file);
     SourceSet laid_out;
     Diagnostics ignored;

@@ -66,7 +66,8 @@ SymbolIndex Names::index(std::vector<Found> mentions) const {
     std::unordered_map<const Scope*, std::uint32_t> scopes;
     for (const Scope& scope : scopes_) { // parents come before what stands in them
         scopes.emplace(&scope, static_cast<std::uint32_t>(index.scopes.size()));
-        index.scopes.push_back({scope.parent ? scopes.at(scope.parent) : SymbolScope::none, scope.extent, {}});
+        index.scopes.push_back(
+            {scope.parent ? scopes.at(scope.parent) : SymbolScope::none, scope.extent, {}});
     }
     std::unordered_map<std::uint32_t, std::size_t> defined_at;
     for (const Binding& binding : bindings_) {
@@ -78,8 +79,8 @@ SymbolIndex Names::index(std::vector<Found> mentions) const {
             index.scopes[scope].symbols.push_back(static_cast<std::uint32_t>(index.symbols.size()));
         }
         defined_at.emplace(binding.span.begin, index.symbols.size());
-        index.symbols.push_back({binding.kind, std::string(binding.name), binding.span, binding.extent,
-                                 binding.type, scope, {}});
+        index.symbols.push_back(
+            {binding.kind, std::string(binding.name), binding.span, binding.extent, binding.type, scope, {}});
     }
     for (const Found& found : mentions) {
         if (const auto symbol = defined_at.find(found.definition.begin); symbol != defined_at.end()) {

@@ -78,7 +78,8 @@ SymbolIndex find_symbols(const ast::File& file, const Schema& schema, SourceSet&
 
 /// The value of the `let` or `param` on the top level that is bound at `name`, as the language writes it;
 /// nothing for things and functions, and if its definition is wrong or needs more than the limits allow.
-std::optional<std::string> evaluate_name(std::shared_ptr<const ast::File> file, Span name, const Schema& schema,
-                                         SourceSet& sources, const EvaluationLimits& limits);
+std::optional<std::string> evaluate_name(std::shared_ptr<const ast::File> file, Span name,
+                                         const Schema& schema, SourceSet& sources,
+                                         const EvaluationLimits& limits);
 
 } // namespace scc::lang

@@ -60,8 +60,7 @@ int serve(const LspOptions& options) {
         return lang::lsp::Checked{std::move(loaded.sources), std::move(diagnostics), std::move(objects)};
     };
     lang::lsp::DescriptorChannel channel(STDIN_FILENO, STDOUT_FILENO);
-    const bool ended_well =
-        lang::lsp::Server(compiler::scene_schema(), check, channel, SCC_VERSION).run();
+    const bool ended_well = lang::lsp::Server(compiler::scene_schema(), check, channel, SCC_VERSION).run();
     return ended_well ? host::exit_fine : host::exit_scene;
 }
 

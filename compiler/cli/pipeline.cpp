@@ -149,11 +149,13 @@ Loaded load_from(const SceneOptions& options, const Read& read, Stage last) {
 } // namespace
 
 Loaded load(const SceneOptions& options, Stage last) {
-    return load_from(options, [&] { return read_text_file(options.file); }, last);
+    return load_from(
+        options, [&] { return read_text_file(options.file); }, last);
 }
 
 Loaded load_text(const SceneOptions& options, std::string text, Stage last) {
-    return load_from(options, [&] { return std::move(text); }, last);
+    return load_from(
+        options, [&] { return std::move(text); }, last);
 }
 
 bool report(const Loaded& loaded) {

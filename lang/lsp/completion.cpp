@@ -56,9 +56,8 @@ bool is_scene_item(TypeKind kind) {
 
 class Completion {
 public:
-    Completion(Document& document, const Analysis& analysis, const Context& context, std::uint32_t offset,
-               CompletionStyle style)
-        : document_(document), analysis_(analysis), context_(context), offset_(offset), style_(style),
+    Completion(Document& document, const Analysis& analysis, const Context& context, CompletionStyle style)
+        : document_(document), analysis_(analysis), context_(context), style_(style),
           replaced_(document.range(context.word)) {}
 
     Json list() {
@@ -122,9 +121,13 @@ private:
         return item;
     }
 
+    /// What is written at the cursor so far, a whole string if it stands in one.
+    std::string_view written() const {
+        return std::string_view(document_.text())
+            .substr(context_.word.begin, context_.word.end - context_.word.begin);
+    }
     Json inside_quotes() {
-        const bool is_closed = context_.word.end > context_.word.begin + 1 &&
-                               analysis_.text(context_.word).ends_with('"');
+        const bool is_closed = context_.word.end > context_.word.begin + 1 && written().ends_with('"');
         return document_.range(context_.word.begin + 1, context_.word.end - (is_closed ? 1 : 0));
     }
 
@@ -201,10 +204,9 @@ private:
     }
 
     void symbols() {
-        const std::uint32_t end = previous_end();
         std::set<std::string_view> seen;
-        for (std::uint32_t scope = analysis_.symbols.scope_at(end); scope != SymbolScope::none;
-             scope = analysis_.symbols.scopes[scope].parent) {
+        for (std::uint32_t scope = analysis_.symbols.scope_at(context_.word.begin + 1);
+             scope != SymbolScope::none; scope = analysis_.symbols.scopes[scope].parent) {
             for (const std::uint32_t index : analysis_.symbols.scopes[scope].symbols) {
                 const Symbol& symbol = analysis_.symbols.symbols[index];
                 if (is_usable(symbol) && seen.insert(symbol.name).second) {
@@ -216,15 +218,17 @@ private:
 
     /// A `let` cannot stand in its own value.
     bool is_usable(const Symbol& symbol) const {
-        const bool is_around = symbol.extent.begin < context_.word.begin && context_.word.begin <= symbol.extent.end;
+        const bool is_around =
+            symbol.extent.begin < context_.word.begin && context_.word.begin <= symbol.extent.end;
         return symbol.kind != SymbolKind::let || !is_around;
     }
 
     void add_symbol(const Symbol& symbol) {
         const bool is_function = symbol.kind == SymbolKind::function;
         const bool is_called = is_function && !is_wanted_as_value(symbol);
-        Json& item = is_called ? add_around(symbol.name, kind_of(symbol.kind), rank_of_result(symbol), "(", ")")
-                               : add(symbol.name, kind_of(symbol.kind), rank_of(symbol.type));
+        Json& item = is_called
+                         ? add_around(symbol.name, kind_of(symbol.kind), rank_of_result(symbol), "(", ")")
+                         : add(symbol.name, kind_of(symbol.kind), rank_of(symbol.type));
         item["detail"] = declaration(symbol, analysis_);
     }
     bool is_wanted_as_value(const Symbol& function) const {
@@ -232,18 +236,6 @@ private:
     }
     Rank rank_of_result(const Symbol& function) const {
         return function.type.kind == TypeKind::function ? rank_of(function.type.args.back()) : Rank::possible;
-    }
-
-    /// The end of what stands before the cursor: a scope ends with its last word, not with the blanks behind.
-    std::uint32_t previous_end() const {
-        const auto& tokens = analysis_.tokens;
-        const auto next =
-            std::partition_point(tokens.begin(), tokens.end(), [&](const Token& token) {
-                return token.span.end <= context_.word.begin;
-            });
-        const bool is_closed = next == tokens.begin() || (next - 1)->kind == TokenKind::right_brace ||
-                               (next - 1)->span.end == context_.word.begin;
-        return is_closed ? offset_ : (next - 1)->span.end;
     }
 
     void constructors() {
@@ -268,9 +260,9 @@ private:
             }
             Rank rank = Rank::possible;
             if (const Builtin* builtin = find_builtin(name); builtin && context_.field) {
-                const bool gives_it = std::any_of(
-                    builtin->overloads.begin(), builtin->overloads.end(),
-                    [&](const Overload& overload) { return is_wanted(overload.result); });
+                const bool gives_it =
+                    std::any_of(builtin->overloads.begin(), builtin->overloads.end(),
+                                [&](const Overload& overload) { return is_wanted(overload.result); });
                 rank = gives_it ? Rank::likely : Rank::possible;
             }
             Json& item = add_around(name, ItemKind::function, rank, "(", ")");
@@ -279,20 +271,21 @@ private:
     }
 
     Document& document_;
-    const Analysis& analysis_;
+    const Analysis& analysis_; ///< of the text with a name where the cursor is
     const Context& context_;
-    std::uint32_t offset_;
     CompletionStyle style_;
     Json replaced_;
     Json items_ = Json::array();
 };
 
-/// The type of what stands before the dot: the text is read once more with a name behind it, since without one
-/// the expression cannot be parsed.
-Type type_before_dot(const Document& document, const Schema& schema, Span word) {
+/// The text with a whole name where the cursor is: without one, what stands around it often cannot be parsed.
+Analysis with_name(const Document& document, const Schema& schema, Span word) {
     std::string text = document.text();
     text.replace(word.begin, word.end - word.begin, "x");
-    const Analysis analysis(document.path(), std::move(text), schema);
+    return Analysis(document.path(), std::move(text), schema);
+}
+
+Type type_before_dot(const Analysis& analysis, Span word) {
     for (const MemberMention& mention : analysis.symbols.members) {
         if (mention.span.begin == word.begin) {
             return mention.object;
@@ -304,11 +297,11 @@ Type type_before_dot(const Document& document, const Schema& schema, Span word) 
 } // namespace
 
 Json completion(Document& document, const Schema& schema, std::uint32_t offset, CompletionStyle style) {
-    const Analysis& analysis = document.analysis(schema);
-    const Context context = context_at(analysis, offset);
-    Completion completion(document, analysis, context, offset, style);
+    const Context context = context_at(document.analysis(schema), offset);
+    const Analysis analysis = with_name(document, schema, context.word);
+    Completion completion(document, analysis, context, style);
     if (context.where == Where::member) {
-        const Type object = type_before_dot(document, schema, context.word);
+        const Type object = type_before_dot(analysis, context.word);
         return completion.members(members_of(object.kind), object);
     }
     return completion.list();

@@ -53,7 +53,9 @@ public:
     explicit Reader(const Analysis& analysis) : analysis_(analysis), tokens_(analysis.tokens) {}
 
     TokenKind kind(std::size_t i) const { return i == none ? TokenKind::end_of_file : tokens_[i].kind; }
-    TokenKind before(std::size_t i) const { return i == 0 || i == none ? TokenKind::end_of_file : kind(i - 1); }
+    TokenKind before(std::size_t i) const {
+        return i == 0 || i == none ? TokenKind::end_of_file : kind(i - 1);
+    }
     std::string_view text(std::size_t i) const { return analysis_.text(tokens_[i].span); }
 
     /// The bracket around the token before `i`, still open there; none: the file.
@@ -108,10 +110,14 @@ public:
         if (previous != TokenKind::right_paren) {
             return previous == TokenKind::name ? Brace::thing : Brace::other;
         }
-        const std::size_t paren = opener(i - 1);
+        return ends_head(i - 1) ? Brace::loop_or_condition : Brace::function;
+    }
+
+    /// The closing parenthesis of `for (...)` or `if (...)`.
+    bool ends_head(std::size_t i) const {
+        const std::size_t paren = kind(i) == TokenKind::right_paren ? opener(i) : none;
         const TokenKind head = paren == none ? TokenKind::end_of_file : before(paren);
-        return head == TokenKind::kw_for || head == TokenKind::kw_if ? Brace::loop_or_condition
-                                                                      : Brace::function;
+        return head == TokenKind::kw_for || head == TokenKind::kw_if;
     }
 
     /// The body in which an item at `i` stands, past loops and conditions; none: the file.
@@ -174,7 +180,8 @@ private:
 /// Whether the cursor stands in the list of a function's parameters.
 bool in_formals(const Reader& reader, std::size_t paren) {
     return reader.before(paren) == TokenKind::kw_fn ||
-           (reader.before(paren) == TokenKind::name && paren >= 2 && reader.before(paren - 1) == TokenKind::kw_fn);
+           (reader.before(paren) == TokenKind::name && paren >= 2 &&
+            reader.before(paren - 1) == TokenKind::kw_fn);
 }
 
 /// What may be written behind the token `previous`.
@@ -194,14 +201,17 @@ Where after(const Reader& reader, std::size_t previous, std::size_t here, bool o
     if (in_body && (previous == none || previous == around || separates(kind))) {
         return Where::item;
     }
+    if (reader.ends_head(previous)) {
+        return Where::operand;
+    }
     if (ends_operand(kind) || kind == TokenKind::kw_else) {
-        return in_body && on_new_line ? Where::item
+        return in_body && on_new_line       ? Where::item
                : kind == TokenKind::kw_else ? Where::operand
                                             : Where::after_operand;
     }
     const bool is_first = previous == around || separates(kind);
-    const bool is_new_name = is_first && !in_body &&
-                             (in_formals(reader, around) || reader.before(around) == TokenKind::kw_for);
+    const bool is_new_name =
+        is_first && !in_body && (in_formals(reader, around) || reader.before(around) == TokenKind::kw_for);
     return is_new_name ? Where::nothing : Where::operand;
 }
 
@@ -257,8 +267,8 @@ Context context_at(const Analysis& analysis, std::uint32_t offset) {
         }
         if (is_word(token.kind)) {
             context.word = {analysis.file, token.span.begin, offset};
-        } else if (offset < token.span.end || token.kind == TokenKind::number || token.kind == TokenKind::error ||
-                   token.kind == TokenKind::hex_color) {
+        } else if (offset < token.span.end || token.kind == TokenKind::number ||
+                   token.kind == TokenKind::error || token.kind == TokenKind::hex_color) {
             return context;
         } else {
             ++here;

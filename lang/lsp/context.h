@@ -25,10 +25,10 @@ struct Context {
     Where where = Where::nothing;
     Span word;                          ///< what is written so far; empty: nothing
     const Constructor* thing = nullptr; ///< whose body the item stands in
-    bool is_file = false;               ///< the item stands at the top of the file, in loops and conditions too
-    bool is_function = false;           ///< the item stands in the block of a function
-    const Field* field = nullptr;       ///< whose value begins here, or the string is
-    std::vector<std::string_view> set;  ///< fields of `thing` that are set
+    bool is_file = false;         ///< the item stands at the top of the file, in loops and conditions too
+    bool is_function = false;     ///< the item stands in the block of a function
+    const Field* field = nullptr; ///< whose value begins here, or the string is
+    std::vector<std::string_view> set; ///< fields of `thing` that are set
 };
 
 Context context_at(const Analysis& analysis, std::uint32_t offset);

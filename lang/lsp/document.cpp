@@ -51,8 +51,9 @@ std::string path_of(std::string_view uri) {
 std::string uri_of(std::string_view path) {
     std::string uri(file_scheme);
     for (const char c : path) {
-        uri += stands_for_itself(c) ? std::string(1, c)
-                                    : fmt::format("%{:02X}", static_cast<unsigned>(static_cast<unsigned char>(c)));
+        uri += stands_for_itself(c)
+                   ? std::string(1, c)
+                   : fmt::format("%{:02X}", static_cast<unsigned>(static_cast<unsigned char>(c)));
     }
     return uri;
 }

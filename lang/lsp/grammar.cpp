@@ -133,10 +133,10 @@ Json numbers() {
 }
 
 Json definitions() {
-    return Json::array(
-        {match_parts(fmt::format("\\b(fn)\\s+({})", name_pattern), {"storage.type.scn", "entity.name.function.scn"}),
-         match_parts(fmt::format("\\b(let|param)\\s+({})", name_pattern),
-                     {"storage.type.scn", "variable.other.constant.scn"})});
+    return Json::array({match_parts(fmt::format("\\b(fn)\\s+({})", name_pattern),
+                                    {"storage.type.scn", "entity.name.function.scn"}),
+                        match_parts(fmt::format("\\b(let|param)\\s+({})", name_pattern),
+                                    {"storage.type.scn", "variable.other.constant.scn"})});
 }
 
 Json constructors(const Schema& schema) {
@@ -154,8 +154,9 @@ Json fields(const Schema& schema) {
             names.push_back(field.name);
         }
     }
-    return Json::array({match(fmt::format("\\b{}(?=\\s*=(?!=))", any_of(names)), "support.type.property-name.scn"),
-                        match(fmt::format("\\b{}(?=\\s*=(?!=))", name_pattern), "variable.parameter.scn")});
+    return Json::array(
+        {match(fmt::format("\\b{}(?=\\s*=(?!=))", any_of(names)), "support.type.property-name.scn"),
+         match(fmt::format("\\b{}(?=\\s*=(?!=))", name_pattern), "variable.parameter.scn")});
 }
 
 Json functions() {
@@ -164,8 +165,12 @@ Json functions() {
          match(fmt::format("(?<!\\.)\\b{}(?=\\()", name_pattern), "entity.name.function.scn")});
 }
 
+/// Behind a colon or an arrow there is nothing but a type; elsewhere a type's name may be a field or a thing.
 Json types() {
-    return match(fmt::format("(?<!\\.)\\b{}\\b(?!\\s*[={{(.])", any_of(type_names())), "support.type.scn");
+    const std::string name = any_of(type_names());
+    return Json::array({match_parts(fmt::format("(:|->)\\s*\\[*({})\\b", name),
+                                    {"keyword.operator.scn", "support.type.scn"}),
+                        match(fmt::format("(?<!\\.)\\b{}\\b(?!\\s*[={{(.])", name), "support.type.scn")});
 }
 
 void append(Json& list, const Json& more) {
@@ -180,14 +185,15 @@ void append(Json& list, const Json& more) {
 
 std::string textmate_grammar(const Schema& schema) {
     Json patterns = Json::array();
-    for (const Json& part : {comments(), strings(), numbers(), definitions(), constructors(schema), reserved_words(),
-                             fields(schema), functions(), types()}) {
+    for (const Json& part : {comments(), strings(), numbers(), definitions(), types(), constructors(schema),
+                             reserved_words(), fields(schema), functions()}) {
         append(patterns, part);
     }
     patterns.push_back(match("\\bpi\\b", "constant.language.scn"));
     patterns.push_back(match(fmt::format("(?<=\\.){}", name_pattern), "variable.other.member.scn"));
     append(patterns, operators());
-    const Json grammar{{"name", "scn"}, {"scopeName", "source.scn"}, {"fileTypes", {"scn"}}, {"patterns", patterns}};
+    const Json grammar{
+        {"name", "scn"}, {"scopeName", "source.scn"}, {"fileTypes", {"scn"}}, {"patterns", patterns}};
     return grammar.dump(2) + "\n";
 }
 

@@ -26,7 +26,8 @@ std::string value_of(const Document& document, const Symbol& symbol, const Schem
     if (!has_value || symbol.scope != 0) {
         return "";
     }
-    const EvaluationLimits quick{.steps = 100'000, .call_depth = 200, .list_length = 1000, .string_length = 1000};
+    const EvaluationLimits quick{
+        .steps = 100'000, .call_depth = 200, .list_length = 1000, .string_length = 1000};
     Analysis own(document.path(), document.text(), schema); // to evaluate needs a tree of its own
     const auto value = evaluate_name(own.tree, symbol.span, schema, own.sources, quick);
     return value && value->size() <= longest ? fmt::format(" = {}", *value) : "";
@@ -65,10 +66,11 @@ std::vector<Span> places(const Symbol& symbol, bool with_definition) {
 }
 
 void check_spelling(const std::string& name, const Schema& schema) {
-    const bool is_name = !name.empty() && is_letter(name[0]) && std::all_of(name.begin(), name.end(), continues_name);
+    const bool is_name =
+        !name.empty() && is_letter(name[0]) && std::all_of(name.begin(), name.end(), continues_name);
     if (!is_name) {
-        refuse(fmt::format("`{}` is not a name; a name is made of letters, digits and `_`, and begins with no digit",
-                           name));
+        refuse(fmt::format(
+            "`{}` is not a name; a name is made of letters, digits and `_`, and begins with no digit", name));
     }
     if (kind_of_word(name) != TokenKind::name) {
         refuse(fmt::format("`{}` is a reserved word; it cannot be a name", name));
@@ -89,7 +91,9 @@ void check_spelling(const std::string& name, const Schema& schema) {
 /// other way round.
 void check_collisions(const Analysis& analysis, const Symbol& symbol, const std::string& name) {
     const SymbolIndex& index = analysis.symbols;
-    const auto line = [&](const Symbol& other) { return analysis.sources.file(analysis.file).position(other.span.begin).line; };
+    const auto line = [&](const Symbol& other) {
+        return analysis.sources.file(analysis.file).position(other.span.begin).line;
+    };
     for (const Symbol& other : index.symbols) {
         if (other.name == name && other.scope == symbol.scope) {
             refuse(fmt::format("`{}` is bound in this scope already, in line {}", name, line(other)));
@@ -98,17 +102,19 @@ void check_collisions(const Analysis& analysis, const Symbol& symbol, const std:
     for (const Mention& mention : symbol.mentions) {
         const Symbol* other = index.find(mention.scope, name);
         if (other && index.is_within(other->scope, symbol.scope)) {
-            refuse(fmt::format("where `{}` is used, `{}` is what line {} binds", symbol.name, name, line(*other)));
+            refuse(fmt::format("where `{}` is used, `{}` is what line {} binds", symbol.name, name,
+                               line(*other)));
         }
     }
     for (const Symbol& other : index.symbols) {
         const bool is_outer = other.name == name && index.is_within(symbol.scope, other.scope);
         const bool is_hidden =
-            is_outer && std::any_of(other.mentions.begin(), other.mentions.end(), [&](const Mention& mention) {
-                return index.is_within(mention.scope, symbol.scope);
-            });
+            is_outer &&
+            std::any_of(other.mentions.begin(), other.mentions.end(),
+                        [&](const Mention& mention) { return index.is_within(mention.scope, symbol.scope); });
         if (is_hidden) {
-            refuse(fmt::format("the new name would hide the `{}` of line {}, which is used there", name, line(other)));
+            refuse(fmt::format("the new name would hide the `{}` of line {}, which is used there", name,
+                               line(other)));
         }
     }
 }
@@ -126,13 +132,15 @@ Json hover(Document& document, const Schema& schema, std::uint32_t offset) {
         return code_hover(document, span, declaration(*field), description(*field));
     }
     if (const Symbol* symbol = symbol_at(analysis, span.begin)) {
-        return code_hover(document, span, declaration(*symbol, analysis) + value_of(document, *symbol, schema),
+        return code_hover(document, span,
+                          declaration(*symbol, analysis) + value_of(document, *symbol, schema),
                           text_of(*symbol, *analysis.tree));
     }
     for (const MemberMention& member : analysis.symbols.members) {
         if (member.span == span && member.object.kind != TypeKind::error) {
             const bool is_scalar = member.object.kind != TypeKind::surface;
-            return code_hover(document, span, fmt::format("{}{}", analysis.text(span), is_scalar ? ": number" : ""),
+            return code_hover(document, span,
+                              fmt::format("{}{}", analysis.text(span), is_scalar ? ": number" : ""),
                               fmt::format("Of {}.", described(member.object)));
         }
     }
@@ -201,7 +209,8 @@ Json rename(Document& document, const Schema& schema, std::uint32_t offset, cons
     }
     for (const std::string& name : {symbol->name, new_name}) {
         if (analysis.tree->lost_names.contains(name)) {
-            refuse(fmt::format("`{}` also stands in text that cannot be read; that has to be mended first", name));
+            refuse(fmt::format("`{}` also stands in text that cannot be read; that has to be mended first",
+                               name));
         }
     }
     Json edits = Json::array();

@@ -33,7 +33,8 @@ public:
     }
 
 private:
-    Json symbol(const std::string& name, const std::string& detail, Shown kind, Span span, Span name_span) const {
+    Json symbol(const std::string& name, const std::string& detail, Shown kind, Span span,
+                Span name_span) const {
         return {{"name", name.empty() ? "?" : name}, // the protocol wants no empty ones
                 {"detail", detail},
                 {"kind", kind},
@@ -53,21 +54,29 @@ private:
         return shown;
     }
 
-    Json show(const ast::Import& node, Span span) const { return definition(node.alias, Shown::module, span); }
-    Json show(const ast::Param& node, Span span) const { return definition(node.name, Shown::constant, span); }
+    Json show(const ast::Import& node, Span span) const {
+        return definition(node.alias, Shown::module, span);
+    }
+    Json show(const ast::Param& node, Span span) const {
+        return definition(node.name, Shown::constant, span);
+    }
     Json show(const ast::Let& node, Span span) const { return definition(node.name, Shown::variable, span); }
-    Json show(const ast::Function& node, Span span) const { return definition(node.name, Shown::function, span); }
+    Json show(const ast::Function& node, Span span) const {
+        return definition(node.name, Shown::function, span);
+    }
     Json show(const ast::Field&, Span) const { return nullptr; }
     Json show(const ast::Table&, Span) const { return nullptr; } // parse_file makes none
     Json show(const ast::For& node, Span span) const {
         return block(fmt::format("for {}", node.variable.text), Shown::array, span, node.body);
     }
-    Json show(const ast::Block& node, Span span) const { return block("else", Shown::array, span, node.body); }
+    Json show(const ast::Block& node, Span span) const {
+        return block("else", Shown::array, span, node.body);
+    }
     Json show(const ast::If& node, Span span) const {
         Json shown = block("if", Shown::array, span, node.yes);
         if (node.otherwise) {
-            shown["children"].push_back(
-                std::visit([&](const auto& other) { return show(other, node.otherwise->span); }, node.otherwise->node));
+            shown["children"].push_back(std::visit(
+                [&](const auto& other) { return show(other, node.otherwise->span); }, node.otherwise->node));
         }
         return shown;
     }

@@ -93,7 +93,8 @@ void Server::take_arrived(bool wait) {
 }
 
 void Server::handle(const Json& message) {
-    const bool is_message = message.is_object() && message.contains("method") && message["method"].is_string();
+    const bool is_message =
+        message.is_object() && message.contains("method") && message["method"].is_string();
     const Json id = message.is_object() ? message.value("id", Json()) : Json();
     if (!is_message) {
         const bool is_response =
@@ -252,8 +253,8 @@ Document* Server::first_unchecked() {
 Json Server::opened(const Json& parameters) {
     const Json& item = parameters.at("textDocument");
     const auto& uri = item.at("uri").get_ref<const std::string&>();
-    documents_.insert_or_assign(
-        uri, Document(uri, item.value("version", std::int64_t{0}), item.at("text").get<std::string>(), encoding_));
+    documents_.insert_or_assign(uri, Document(uri, item.value("version", std::int64_t{0}),
+                                              item.at("text").get<std::string>(), encoding_));
     return nullptr;
 }
 

@@ -22,8 +22,13 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 6> special_f
     {"print", "print(A)"},
 }};
 
-std::string sentence(std::string_view text) {
-    return text.empty() ? "" : fmt::format("{}.\n\n", text);
+/// Adds a paragraph of one sentence.
+void say(std::string& text, std::string sentence) {
+    if (!sentence.empty()) {
+        const char first = sentence[0];
+        sentence[0] = first >= 'a' && first <= 'z' ? static_cast<char>(first - 'a' + 'A') : first;
+        text += fmt::format("{}{}.", text.empty() ? "" : "\n\n", sentence);
+    }
 }
 
 std::string signature(std::string_view name, const Overload& overload) {
@@ -54,8 +59,7 @@ std::string_view keyword(SymbolKind kind) {
 
 /// The parameters as they are written: with names and defaults. Empty if they cannot be found.
 std::string_view formals_of(const Symbol& function, const Analysis& analysis) {
-    const std::string_view text =
-        analysis.text({function.span.file, function.span.end, function.extent.end});
+    const std::string_view text = analysis.text({function.span.file, function.span.end, function.extent.end});
     int depth = 0;
     for (std::size_t i = 0; i < text.size(); ++i) {
         depth += text[i] == '(' ? 1 : text[i] == ')' ? -1 : 0;
@@ -74,11 +78,13 @@ std::string declaration(const Field& field) {
 }
 
 std::string description(const Field& field) {
-    std::string text = sentence(field.doc) + sentence(rule_of(field));
-    text += field.choices.empty() ? "" : sentence(choice_rule(field));
-    text += field.required ? sentence("it has to be set") : "";
-    text += field.per_point ? sentence(fmt::format("also a function `fn(surface) -> {}`", to_string(field.type)))
-                            : "";
+    std::string text;
+    say(text, std::string(field.doc));
+    say(text, rule_of(field));
+    say(text, field.choices.empty() ? "" : choice_rule(field));
+    say(text, field.required ? "it has to be set" : "");
+    say(text,
+        field.per_point ? fmt::format("also a function `fn(surface) -> {}`", to_string(field.type)) : "");
     return text;
 }
 
@@ -95,13 +101,17 @@ std::string declaration(const Constructor& constructor) {
 }
 
 std::string description(const Constructor& constructor) {
-    return sentence(constructor.doc) + (constructor.takes_children ? sentence("it takes shapes as items") : "");
+    std::string text;
+    say(text, std::string(constructor.doc));
+    say(text, constructor.takes_children ? "it takes shapes as items" : "");
+    return text;
 }
 
 std::string declaration(const Symbol& symbol, const Analysis& analysis) {
     const std::string name = fmt::format("{}{}", keyword(symbol.kind), symbol.name);
     if (symbol.kind == SymbolKind::function && symbol.type.kind == TypeKind::function) {
-        return fmt::format("{}{} -> {}", name, formals_of(symbol, analysis), to_string(symbol.type.args.back()));
+        return fmt::format("{}{} -> {}", name, formals_of(symbol, analysis),
+                           to_string(symbol.type.args.back()));
     }
     return symbol.type.kind == TypeKind::error ? name : fmt::format("{}: {}", name, to_string(symbol.type));
 }

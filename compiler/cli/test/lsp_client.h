@@ -111,7 +111,9 @@ public:
         ADD_FAILURE() << "no answer to request " << id;
         return nullptr;
     }
-    Json request(const std::string& method, Json parameters) { return answer(ask(method, std::move(parameters))); }
+    Json request(const std::string& method, Json parameters) {
+        return answer(ask(method, std::move(parameters)));
+    }
     Json result(const std::string& method, Json parameters) {
         const Json message = request(method, std::move(parameters));
         EXPECT_FALSE(message.contains("error")) << message.dump();
@@ -141,13 +143,15 @@ public:
 
     // ---- usual exchanges ----
     Json initialize(Json capabilities = Json::object()) {
-        const Json answer = result("initialize", {{"processId", nullptr}, {"capabilities", std::move(capabilities)}});
+        const Json answer =
+            result("initialize", {{"processId", nullptr}, {"capabilities", std::move(capabilities)}});
         notify("initialized", Json::object());
         return answer;
     }
     void open(const std::string& uri, const std::string& text, int version = 1) {
-        notify("textDocument/didOpen",
-               {{"textDocument", {{"uri", uri}, {"languageId", "scn"}, {"version", version}, {"text", text}}}});
+        notify(
+            "textDocument/didOpen",
+            {{"textDocument", {{"uri", uri}, {"languageId", "scn"}, {"version", version}, {"text", text}}}});
     }
     void replace_all(const std::string& uri, const std::string& text, int version) {
         notify("textDocument/didChange", {{"textDocument", {{"uri", uri}, {"version", version}}},

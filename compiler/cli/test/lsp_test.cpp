@@ -57,7 +57,7 @@ protected:
                 return one;
             }
         }
-        ADD_FAILURE() << label << " is not offered: " << answer.dump();
+        ADD_FAILURE() << label << " is not offered";
         return {};
     }
     std::string hover(const std::string& marked) {
@@ -82,7 +82,8 @@ protected:
         };
         for (auto edit = edits.rbegin(); edit != edits.rend(); ++edit) {
             const std::size_t begin = offset((*edit)["range"]["start"]);
-            text.replace(begin, offset((*edit)["range"]["end"]) - begin, (*edit)["newText"].get<std::string>());
+            text.replace(begin, offset((*edit)["range"]["end"]) - begin,
+                         (*edit)["newText"].get<std::string>());
         }
         return text;
     }
@@ -136,7 +137,8 @@ TEST_F(Lsp, AnswersUnknownMethodsAndBadParameters) {
     EXPECT_EQ(client.request("textDocument/inlayHint", Json::object())["error"]["code"], -32601);
     EXPECT_EQ(client.request("textDocument/hover", Json::object())["error"]["code"], -32602);
     EXPECT_EQ(client.request("textDocument/hover", Json::array({1, 2}))["error"]["code"], -32602);
-    const Json not_open{{"textDocument", {{"uri", "file:///b.scn"}}}, {"position", {{"line", 0}, {"character", 0}}}};
+    const Json not_open{{"textDocument", {{"uri", "file:///b.scn"}}},
+                        {"position", {{"line", 0}, {"character", 0}}}};
     EXPECT_EQ(client.request("textDocument/hover", not_open)["error"]["code"], -32602);
     client.notify("textDocument/didChange", {{"textDocument", 3}});
     client.notify("$/setTrace", {{"value", "off"}});
@@ -186,10 +188,11 @@ TEST_F(Lsp, AnswersACancelledRequestAsCancelled) {
         text += "sphere { center = (" + std::to_string(i) + ", 0, 0) }\n";
     }
     client.open(uri, text);
-    const Json request{{"jsonrpc", "2.0"},
-                       {"id", "hover-1"},
-                       {"method", "textDocument/hover"},
-                       {"params", {{"textDocument", {{"uri", uri}}}, {"position", {{"line", 0}, {"character", 1}}}}}};
+    const Json request{
+        {"jsonrpc", "2.0"},
+        {"id", "hover-1"},
+        {"method", "textDocument/hover"},
+        {"params", {{"textDocument", {{"uri", uri}}}, {"position", {{"line", 0}, {"character", 1}}}}}};
     const Json cancel{{"jsonrpc", "2.0"}, {"method", "$/cancelRequest"}, {"params", {{"id", "hover-1"}}}};
     client.send_bytes(lang::lsp::Framing::framed(request.dump()) + lang::lsp::Framing::framed(cancel.dump()));
     Json answer = client.receive();
@@ -245,8 +248,8 @@ TEST_F(Lsp, GivesNotesAsRelatedPlacesOrInTheMessage) {
     LspClient plain;
     plain.initialize();
     plain.open(uri, text);
-    EXPECT_EQ(plain.diagnostics(uri, 1)[0]["message"], "`radius` is set already\nnote: a.scn:1:10: it is set here"
-              ) << "the path is that of the URI";
+    EXPECT_EQ(plain.diagnostics(uri, 1)[0]["message"],
+              "`radius` is set already\nnote: /nowhere/a.scn:1:10: it is set here");
 }
 
 TEST_F(Lsp, CountsColumnsInUtf16OrUtf8) {
@@ -260,21 +263,25 @@ TEST_F(Lsp, CountsColumnsInUtf16OrUtf8) {
     other.open(uri, text);
     EXPECT_EQ(other.diagnostics(uri, 1)[0]["range"], range(0, 25, 31));
     // An edit behind the same characters, in UTF-16.
-    client.notify("textDocument/didChange",
-                  {{"textDocument", {{"uri", uri}, {"version", 2}}},
-                   {"contentChanges", {{{"range", range(0, 23, 24)}, {"text", "u"}}, {{"range", range(0, 3, 7)}, {"text", ""}}}}});
-    const Json hover = client.result("textDocument/hover", {{"textDocument", {{"uri", uri}}}, {"position", {{"line", 0}, {"character", 18}}}});
+    client.notify("textDocument/didChange", {{"textDocument", {{"uri", uri}, {"version", 2}}},
+                                             {"contentChanges",
+                                              {{{"range", range(0, 24, 25)}, {"text", "u"}},
+                                               {{"range", range(0, 3, 7)}, {"text", ""}}}}});
+    const Json hover = client.result("textDocument/hover", {{"textDocument", {{"uri", uri}}},
+                                                            {"position", {{"line", 0}, {"character", 18}}}});
     EXPECT_EQ(hover["range"], range(0, 16, 22)) << hover.dump();
 }
 
 TEST_F(Lsp, AppliesIncrementalChangesOneAfterTheOther) {
     open("sphere { radius = 1 }\r\n// end\n");
-    client.notify("textDocument/didChange",
-                  {{"textDocument", {{"uri", uri}, {"version", 2}}},
-                   {"contentChanges",
-                    {{{"range", range(0, 0, 6)}, {"text", "box"}},
-                     {{"range", {{"start", {{"line", 0}, {"character", 3}}}, {"end", {{"line", 1}, {"character", 99}}}}},
-                      {"text", " { radius = 1 }\nbox { }"}}}}});
+    client.notify(
+        "textDocument/didChange",
+        {{"textDocument", {{"uri", uri}, {"version", 2}}},
+         {"contentChanges",
+          {{{"range", range(0, 0, 6)}, {"text", "box"}},
+           {{"range",
+             {{"start", {{"line", 0}, {"character", 3}}}, {"end", {{"line", 1}, {"character", 99}}}}},
+            {"text", " { radius = 1 }\nbox { }"}}}}});
     const Json list = client.diagnostics(uri, 2);
     ASSERT_FALSE(list.empty());
     EXPECT_EQ(list[0]["message"], "box has no field `radius`");
@@ -285,8 +292,9 @@ TEST_F(Lsp, OffersFixes) {
     const std::string text = "sphere { radios = 2 }\nperspective_camera { fov_y = 40 }\npoint_light { }\n";
     open(text);
     const Json context{{"diagnostics", Json::array()}};
-    const Json all = client.result("textDocument/codeAction",
-                                   {{"textDocument", {{"uri", uri}}}, {"range", range(0, 10, 10)}, {"context", context}});
+    const Json all =
+        client.result("textDocument/codeAction",
+                      {{"textDocument", {{"uri", uri}}}, {"range", range(0, 10, 10)}, {"context", context}});
     ASSERT_EQ(all.size(), 2u) << all.dump();
     EXPECT_EQ(all[0]["kind"], "quickfix");
     EXPECT_EQ(all[0]["title"], "replace `radios` by `radius`");
@@ -313,24 +321,26 @@ TEST_F(Lsp, CompletesFieldsThatAreNotSet) {
     EXPECT_FALSE(has(fields, "radius") || has(fields, "sphere") || has(fields, "fov_y"));
     const Json radius = item("sphere { ra| }\n", "radius");
     EXPECT_EQ(radius["detail"], "radius: number = 1");
-    EXPECT_NE(radius["documentation"]["value"].get<std::string>().find("a radius is greater than 0"),
+    EXPECT_NE(radius["documentation"]["value"].get<std::string>().find("A radius is greater than 0"),
               std::string::npos);
     EXPECT_EQ(radius["textEdit"], (Json{{"range", range(0, 9, 11)}, {"newText", "radius = "}}));
     EXPECT_TRUE(has(labels("sphere { if (true) { | } }\n"), "center"));
-    EXPECT_TRUE(has(labels("sphere { |"), "center")); // never closed
+    EXPECT_TRUE(has(labels("sphere { |"), "center"));      // never closed
     EXPECT_FALSE(has(labels("phong { | }\n"), "opacity")); // not supported yet
 }
 
 TEST_F(Lsp, CompletesChoices) {
     const std::string scene = "render { method = raster { shading = \"|\" } }\n";
     EXPECT_EQ(labels(scene), (std::set<std::string>{"flat", "gouraud", "phong", "wireframe", "hidden_line"}));
-    EXPECT_EQ(item("render { method = raster { shading = \"go|u\" } }\n", "gouraud")["textEdit"]["range"], range(0, 38, 41));
+    EXPECT_EQ(item("render { method = raster { shading = \"go|u\" } }\n", "gouraud")["textEdit"]["range"],
+              range(0, 38, 41));
     EXPECT_TRUE(has(labels("render { method = raster { shading = | } }\n"), "\"gouraud\""));
     EXPECT_TRUE(labels("render { file = \"|\" }\n").empty());
 }
 
 TEST_F(Lsp, CompletesNamesInScope) {
-    const std::string head = "param n: number = 3\nlet red = phong { }\nfn f(a: number, b: vec3) -> number = a + |\nfn g(c: number) = c\n";
+    const std::string head = "param n: number = 3\nlet red = phong { }\nfn f(a: number, b: vec3) -> number = "
+                             "a + |\nfn g(c: number) = c\n";
     const auto names = labels(head);
     for (const char* name : {"n", "red", "f", "g", "a", "b", "sin", "rgb", "pi", "if", "sphere"}) {
         EXPECT_TRUE(has(names, name)) << name;
@@ -353,14 +363,16 @@ TEST_F(Lsp, PutsWhatFitsTheFieldFirst) {
 
 TEST_F(Lsp, CompletesMembersAndTypes) {
     EXPECT_EQ(labels("fn f(v: vec3) -> number = v.|\n"), (std::set<std::string>{"x", "y", "z"}));
-    EXPECT_EQ(labels("fn f(s: surface) -> number = s.p.|\nsphere { }\n"), (std::set<std::string>{"x", "y", "z"}));
+    EXPECT_EQ(labels("fn f(s: surface) -> number = s.p.|\nsphere { }\n"),
+              (std::set<std::string>{"x", "y", "z"}));
     EXPECT_TRUE(has(labels("fn f(s: surface) = s.|\n"), "world"));
     EXPECT_TRUE(has(labels("let c: |\n"), "color"));
     EXPECT_TRUE(has(labels("fn f(a: number) -> |\n"), "vec3"));
 }
 
 TEST_F(Lsp, CompletesNothingWhereNamesAreMadeUp) {
-    for (const char* place : {"// a |\n", "/* | */\n", "let |\n", "fn f(|\n", "for (|\n", "let a = 12|\n", "let a = #12|\n"}) {
+    for (const char* place :
+         {"// a |\n", "/* | */\n", "let |\n", "fn f(|\n", "for (|\n", "let a = 12|\n", "let a = #12|\n"}) {
         EXPECT_TRUE(labels(place).empty()) << place;
     }
 }
@@ -375,14 +387,18 @@ TEST_F(Lsp, PlacesTheCursorForClientsThatKnowSnippets) {
 
 TEST_F(Lsp, TellsWhatANameIs) {
     EXPECT_EQ(hover("sphere { radi|us = 2 }\n"),
-              "```scn\nradius: number = 1\n```\nA radius is greater than 0." ) << "";
-    EXPECT_NE(hover("let r|ed = 2 * 3\nsphere { radius = red }\n").find("let red: number = 6"), std::string::npos);
-    EXPECT_NE(hover("param n: number = 4 \"how many\"\nsphere { radius = |n }\n").find("param n: number = 4\n```\nhow many"), std::string::npos);
+              "```scn\nradius: number = 1\n```\nRadius.\n\nA radius is greater than 0.");
+    EXPECT_NE(hover("let r|ed = 2 * 3\nsphere { radius = red }\n").find("let red: number = 6"),
+              std::string::npos);
+    EXPECT_NE(hover("param n: number = 4 \"how many\"\nsphere { radius = |n }\n")
+                  .find("param n: number = 4\n```\nhow many"),
+              std::string::npos);
     EXPECT_NE(hover("fn f(a: number, b: vec3 = (1, 2, 3)) = a\nsphere { radius = f|(1) }\n")
                   .find("fn f(a: number, b: vec3 = (1, 2, 3)) -> number"),
               std::string::npos);
     EXPECT_NE(hover("fn f(a: number) = |a\n").find("a: number"), std::string::npos);
-    EXPECT_NE(hover("let a = si|n(1)\n").find("sin(angle) -> number\nsin(number) -> number"), std::string::npos);
+    EXPECT_NE(hover("let a = si|n(1)\n").find("sin(angle) -> number\nsin(number) -> number"),
+              std::string::npos);
     EXPECT_NE(hover("|phong { }\n").find("phong { diffuse, ambient"), std::string::npos);
     EXPECT_NE(hover("fn f(s: surface) = s.p.|x\n").find("x: number"), std::string::npos);
     EXPECT_EQ(hover("sphere |{ }\n"), "");
@@ -391,12 +407,16 @@ TEST_F(Lsp, TellsWhatANameIs) {
 
 TEST_F(Lsp, FindsDefinitionsAndReferences) {
     const std::string text = "let a = 1\nfn f(a: number) = a\nsphere { radius = f(a = a) + (a) }\n";
-    const Json place = at("textDocument/definition", Marked("let a = 1\nfn f(a: number) = a\nsphere { radius = f(a = |a) + (a) }\n"));
+    const Json place = at("textDocument/definition",
+                          Marked("let a = 1\nfn f(a: number) = a\nsphere { radius = f(a = |a) + (a) }\n"));
     EXPECT_EQ(place["result"], (Json{{"uri", uri}, {"range", range(0, 4, 5)}}));
-    const Json outer = at("textDocument/references", Marked("let |a = 1\n" + text.substr(10)), {{"context", {{"includeDeclaration", true}}}});
+    const Json outer = at("textDocument/references", Marked("let |a = 1\n" + text.substr(10)),
+                          {{"context", {{"includeDeclaration", true}}}});
     const auto location = [](const Json& where) { return Json{{"uri", uri}, {"range", where}}; };
-    EXPECT_EQ(outer["result"], Json::array({location(range(0, 4, 5)), location(range(2, 24, 25)), location(range(2, 30, 31))}));
-    const Json inner = at("textDocument/documentHighlight", Marked("let a = 1\nfn f(|a: number) = a\nsphere { radius = f(a = a) + (a) }\n"));
+    EXPECT_EQ(outer["result"], Json::array({location(range(0, 4, 5)), location(range(2, 24, 25)),
+                                            location(range(2, 30, 31))}));
+    const Json inner = at("textDocument/documentHighlight",
+                          Marked("let a = 1\nfn f(|a: number) = a\nsphere { radius = f(a = a) + (a) }\n"));
     ASSERT_EQ(inner["result"].size(), 3u);
     EXPECT_EQ(inner["result"][0], (Json{{"range", range(1, 5, 6)}, {"kind", 3}}));
     EXPECT_EQ(inner["result"][2], (Json{{"range", range(2, 20, 21)}, {"kind", 2}}));
@@ -425,7 +445,8 @@ TEST_F(Lsp, RefusesNamesThatWouldChangeTheMeaning) {
     const auto refused = [&](const std::string& text, const std::string& name, const std::string& why) {
         EXPECT_NE(renamed(text, name).find(why), std::string::npos) << name << ": " << renamed(text, name);
     };
-    const std::string text = "let |a = 1\nlet b = a\nfn f(c: number) = a + c\nfn g(d: number) = d\nsphere { radius = f(b) + g(1) }\n";
+    const std::string text = "let |a = 1\nlet b = a\nfn f(c: number) = a + c\nfn g(d: number) = d\nsphere { "
+                             "radius = f(b) + g(1) }\n";
     refused(text, "2d", "is not a name");
     refused(text, "", "is not a name");
     refused(text, "n\xC3\xA9", "is not a name");
@@ -450,14 +471,14 @@ TEST_F(Lsp, PreparesRenames) {
 // ---- the whole file --------------------------------------------------------------------------------------
 
 TEST_F(Lsp, LaysOutADocument) {
-    const std::string text = "// \nlet   a=1\nsphere{radius=a}\nbox { }\n";
+    const std::string text = "//\nlet   a=1\nsphere{radius=a}\nbox { }\n";
     open(text);
-    const Json options{{"textDocument", {{"uri", uri}}}, {"options", {{"tabSize", 2}, {"insertSpaces", true}}}};
+    const Json options{{"textDocument", {{"uri", uri}}},
+                       {"options", {{"tabSize", 2}, {"insertSpaces", true}}}};
     const Json edits = client.result("textDocument/formatting", options);
     ASSERT_EQ(edits.size(), 1u);
     EXPECT_EQ(edits[0]["range"]["start"]["line"], 1); // the lines that differ, not all
-    const std::string wanted = "// \nlet a = 1\nsphere { radius = a }\nbox { }\n";
-    EXPECT_EQ(edited(text, edits), edited(wanted, Json::array()));
+    EXPECT_EQ(edited(text, edits), "//\nlet a = 1\nsphere { radius = a }\nbox { }\n");
     client.replace_all(uri, edited(text, edits), 2);
     EXPECT_EQ(client.result("textDocument/formatting", options), Json::array());
     client.replace_all(uri, "sphere { radius = \n", 3);
@@ -465,7 +486,8 @@ TEST_F(Lsp, LaysOutADocument) {
 }
 
 TEST_F(Lsp, OutlinesByPath) {
-    open("let red = phong { }\nfn f(a: number) = a\ngroup {\n  name = \"table\"\n  box { name = \"leg\" }\n  box { name = \"leg\" }\n}\n"
+    open("let red = phong { }\nfn f(a: number) = a\ngroup {\n  name = \"table\"\n  box { name = \"leg\" }\n  "
+         "box { name = \"leg\" }\n}\n"
          "for (i in 0..3) { sphere { radius = i + 1, material = red } }\nperspective_camera { }\n");
     const Json list = client.result("textDocument/documentSymbol", {{"textDocument", {{"uri", uri}}}});
     ASSERT_EQ(list.size(), 5u) << list.dump();
@@ -480,19 +502,23 @@ TEST_F(Lsp, OutlinesByPath) {
 }
 
 TEST_F(Lsp, AnswersInTextThatCannotBeParsed) {
-    const std::string broken = "let red = phong {\nsphere { material = re|d, radius = }\n)\nfn f(x: number = x +\n";
+    const std::string broken =
+        "let red = phong {\nsphere { material = re|d, radius = }\n)\nfn f(x: number = x +\n";
     EXPECT_NE(at("textDocument/completion", Marked(broken))["result"]["items"].size(), 0u);
-    for (const char* method : {"textDocument/hover", "textDocument/definition", "textDocument/references", "textDocument/documentSymbol"}) {
+    for (const char* method : {"textDocument/hover", "textDocument/definition", "textDocument/references",
+                               "textDocument/documentSymbol"}) {
         EXPECT_FALSE(at(method, Marked(broken)).contains("error")) << method;
     }
-    EXPECT_FALSE(client.diagnostics(uri, 1).empty());
+    EXPECT_FALSE(client.diagnostics(uri, version).empty());
 }
 
 /// At every place of a scene, and of its beginnings, every question gets an answer.
 TEST_F(Lsp, AnswersEverywhere) {
-    const std::string text = "let red = phong { diffuse = #ff0000 }\nfn f(s: surface) -> color = if (s.p.x > 0) red else rgb(1, 0, 0)\n"
-                             "for (i in 0..3) { sphere { radius = 1 + i, material = phong { diffuse = f } } }\n"
-                             "render { file = \"a.png\", method = ray { filter = \"box\" } }";
+    const std::string text =
+        "let red = phong { diffuse = #ff0000 }\nfn f(s: surface) -> color = if (s.p.x > 0) red else rgb(1, "
+        "0, 0)\n"
+        "for (i in 0..3) { sphere { radius = 1 + i, material = phong { diffuse = f } } }\n"
+        "render { file = \"a.png\", method = ray { filter = \"box\" } }";
     for (std::size_t size = 0; size <= text.size(); size += 3) {
         open(text.substr(0, size));
         const auto lines = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(size), '\n');
@@ -500,7 +526,8 @@ TEST_F(Lsp, AnswersEverywhere) {
         const Json parameters{{"textDocument", {{"uri", uri}}},
                               {"position", {{"line", lines}, {"character", column}}},
                               {"newName", "other"}};
-        for (const char* method : {"textDocument/completion", "textDocument/hover", "textDocument/prepareRename"}) {
+        for (const char* method :
+             {"textDocument/completion", "textDocument/hover", "textDocument/prepareRename"}) {
             EXPECT_FALSE(client.request(method, parameters).contains("error")) << method << " at " << size;
         }
         client.request("textDocument/rename", parameters);
@@ -514,7 +541,8 @@ TEST_F(LspFiles, ReadsAssetsFromTheDocumentsFolder) {
     LspClient client;
     client.initialize();
     std::string here = "file://" + path("s%C3%A9.scn");
-    client.open(here, "mesh { file = \"a b.obj\" }\nperspective_camera { }\npoint_light { }\n"); // never saved
+    client.open(here,
+                "mesh { file = \"a b.obj\" }\nperspective_camera { }\npoint_light { }\n"); // never saved
     EXPECT_EQ(client.diagnostics(here, 1), Json::array());
     client.replace_all(here, "mesh { file = \"c.obj\" }\nperspective_camera { }\npoint_light { }\n", 2);
     EXPECT_EQ(client.diagnostics(here, 2)[0]["code"], "missing-asset");
@@ -539,7 +567,8 @@ TEST_F(LspFiles, ReadsABigDocument) {
 TEST_F(LspFiles, CommittedGrammarIsTheGeneratedOne) {
     const auto printed = scc({"lsp", "--print-grammar"});
     ASSERT_TRUE(printed.ok()) << printed.err;
-    std::ifstream stream(SCC_SOURCE_DIR "/lang/editors/vscode/syntaxes/scn.tmLanguage.json", std::ios::binary);
+    std::ifstream stream(SCC_SOURCE_DIR "/lang/editors/vscode/syntaxes/scn.tmLanguage.json",
+                         std::ios::binary);
     const std::string committed{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
     EXPECT_TRUE(committed == printed.out)
         << "write it anew: scc lsp --print-grammar > lang/editors/vscode/syntaxes/scn.tmLanguage.json";
@@ -553,9 +582,10 @@ TEST_F(LspFiles, ServesNeovim) {
     std::string scene{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
     scene.replace(scene.find("diffuse"), 7, "difuse");
     write("scene.scn", scene);
-    const auto result = start("nvim",
-                              {"--headless", "-u", "NONE", "-n", "-c", "luafile " SCC_SOURCE_DIR "/compiler/cli/test/neovim.lua"},
-                              {{"SCC_PROGRAM", SCC_PROGRAM}, {"XDG_STATE_HOME", folder().string()}});
+    const auto result = start(
+        "nvim",
+        {"--headless", "-u", "NONE", "-n", "-c", "luafile " SCC_SOURCE_DIR "/compiler/cli/test/neovim.lua"},
+        {{"SCC_PROGRAM", SCC_PROGRAM}, {"XDG_STATE_HOME", folder().string()}});
     EXPECT_TRUE(result.ok()) << result.err << result.out;
     EXPECT_NE(result.out.find("all of it works"), std::string::npos) << result.err << result.out;
 }

@@ -17,12 +17,16 @@ local function ask(method, parameters)
   fail("no answer to " .. method)
 end
 
+local function mistakes()
+  return vim.diagnostic.get(0, { severity = vim.diagnostic.severity.ERROR })
+end
+
 vim.cmd("edit " .. scene)
 local id = vim.lsp.start_client({ name = "scc", cmd = { program, "lsp" }, root_dir = vim.loop.cwd() })
 vim.lsp.buf_attach_client(0, id)
 
-wait_for("diagnostics come", function() return #vim.diagnostic.get(0) > 0 end)
-local mistake = vim.diagnostic.get(0)[1]
+wait_for("diagnostics come", function() return #mistakes() > 0 end)
+local mistake = mistakes()[1]
 expect(mistake.code == "unknown-field", vim.inspect(mistake))
 expect(mistake.message:find("did you mean `diffuse`"), mistake.message)
 local line = vim.api.nvim_buf_get_lines(0, mistake.lnum, mistake.lnum + 1, true)[1]
@@ -34,7 +38,7 @@ local place = vim.lsp.util.make_range_params()
 place.context = { diagnostics = {} }
 local fix = ask("textDocument/codeAction", place)[1]
 vim.lsp.util.apply_workspace_edit(fix.edit, "utf-16")
-wait_for("the mistake is mended", function() return #vim.diagnostic.get(0) == 0 end)
+wait_for("the mistake is mended", function() return #mistakes() == 0 end)
 
 -- Hover over the field, then rename the material.
 local hover = ask("textDocument/hover", vim.lsp.util.make_position_params())
@@ -45,7 +49,7 @@ rename.newName = "ruby"
 vim.lsp.util.apply_workspace_edit(ask("textDocument/rename", rename), "utf-16")
 local text = table.concat(vim.api.nvim_buf_get_lines(0, 0, -1, true), "\n")
 expect(text:find("let ruby = phong", 1, true) and text:find("material = ruby", 1, true), text)
-expect(not text:find("red", 1, true), "a `red` is left")
+expect(not text:find("%f[%w]red%f[%W]"), "a `red` is left")
 
 -- Formatting.
 vim.api.nvim_buf_set_lines(0, -1, -1, true, { "sphere{radius=0.25}" })
