@@ -264,47 +264,100 @@ std::vector<Overload> randoms() {
     return not_per_point(std::move(overloads));
 }
 
+/// One list of names for each number of parameters.
+using Names = std::vector<std::vector<std::string_view>>;
+
+Builtin row(std::string_view name, const Names& names, std::string_view doc, std::string_view example,
+            std::vector<Overload> overloads) {
+    for (Overload& overload : overloads) {
+        const auto same_length = [&](const auto& list) { return list.size() == overload.parameters.size(); };
+        overload.names = *std::find_if(names.begin(), names.end(), same_length);
+    }
+    return {name, std::move(overloads), doc, example};
+}
+
 std::vector<Builtin> make_table() {
     const auto vectors = {K::vec2, K::vec3};
     const auto rounded = {K::number, K::vec2, K::vec3, K::color};
     const auto ordered = {K::number, K::angle, K::vec2, K::vec3, K::color};
     const auto n = {K::number};
+    const Names x{{"x"}};
+    const Names angle{{"angle"}};
+    const Names pair{{"a", "b"}};
     return {
-        {"abs", same(ordered, 1, unary<ScalarOp::abs>)},
-        {"floor", same(rounded, 1, unary<ScalarOp::floor>)},
-        {"ceil", same(rounded, 1, unary<ScalarOp::ceil>)},
-        {"sqrt", same(n, 1, unary<ScalarOp::sqrt>)},
-        {"exp", same(n, 1, unary<ScalarOp::exp>)},
-        {"log", same(n, 1, unary<ScalarOp::log>)},
-        {"sin", to_number({K::angle, K::number}, 1, unary<ScalarOp::sin, K::number>)},
-        {"cos", to_number({K::angle, K::number}, 1, unary<ScalarOp::cos, K::number>)},
-        {"tan", to_number({K::angle, K::number}, 1, unary<ScalarOp::tan, K::number>)},
-        {"asin", to_angle(1, unary<ScalarOp::asin, K::angle>)},
-        {"acos", to_angle(1, unary<ScalarOp::acos, K::angle>)},
-        {"atan2", to_angle(2, pairwise<ScalarOp::atan2, K::angle>)},
-        {"min", same(ordered, 2, pairwise<ScalarOp::min>)},
-        {"max", same(ordered, 2, pairwise<ScalarOp::max>)},
-        {"pow", same(n, 2, pairwise<ScalarOp::pow>)},
-        {"mod", same({K::number, K::angle}, 2, modulo)},
-        {"clamp", clamps()},
-        {"mix", mixes()},
-        {"dot", to_number(vectors, 2, dot_product)},
-        {"length", to_number(vectors, 1, length)},
-        {"normalize", same(vectors, 1, normalize)},
-        {"cross", same({K::vec3}, 2, cross_product)},
-        {"random", randoms()},
-        {"noise", not_per_point(to_number({K::number, K::vec2, K::vec3}, 1, noise))},
-        {"rgb", {{{K::number, K::number, K::number}, K::color, rgb}}},
-        {"srgb", {{{K::number, K::number, K::number}, K::color, srgb}}},
-        {"translate", transforms({{K::vec3}, {K::number, K::number, K::number}}, translate)},
-        {"scale", transforms({{K::number}, {K::number, K::number, K::number}, {K::vec3}}, scale)},
-        {"rotate_x", transforms({{K::angle}}, rotate_about<0>)},
-        {"rotate_y", transforms({{K::angle}}, rotate_about<1>)},
-        {"rotate_z", transforms({{K::angle}}, rotate_about<2>)},
-        {"rotate", transforms({{K::vec3, K::angle}}, rotate)},
-        {"look_at", transforms({{K::vec3, K::vec3, K::vec3}}, look_at_view)},
-        {"matrix", transforms({{Type::list_of(K::number)}}, matrix)},
-        {"inverse", transforms({{K::transform}}, inverse_of)},
+        row("abs", x, "without its sign; of a vector or colour, component by component", "abs(-2)",
+            same(ordered, 1, unary<ScalarOp::abs>)),
+        row("floor", x, "the largest whole number that is not greater", "floor(-1.5)",
+            same(rounded, 1, unary<ScalarOp::floor>)),
+        row("ceil", x, "the smallest whole number that is not less", "ceil(1.2)",
+            same(rounded, 1, unary<ScalarOp::ceil>)),
+        row("sqrt", x, "the square root", "sqrt(2)", same(n, 1, unary<ScalarOp::sqrt>)),
+        row("exp", x, "e to the power of x", "exp(1)", same(n, 1, unary<ScalarOp::exp>)),
+        row("log", x, "the natural logarithm", "log(10)", same(n, 1, unary<ScalarOp::log>)),
+        row("sin", angle, "the sine; of a plain number, which is in radians", "sin(30deg)",
+            to_number({K::angle, K::number}, 1, unary<ScalarOp::sin, K::number>)),
+        row("cos", angle, "the cosine; of a plain number, which is in radians", "cos(60deg)",
+            to_number({K::angle, K::number}, 1, unary<ScalarOp::cos, K::number>)),
+        row("tan", angle, "the tangent; of a plain number, which is in radians", "tan(45deg)",
+            to_number({K::angle, K::number}, 1, unary<ScalarOp::tan, K::number>)),
+        row("asin", x, "the angle from -90deg to 90deg that has this sine", "asin(0.5)",
+            to_angle(1, unary<ScalarOp::asin, K::angle>)),
+        row("acos", x, "the angle from 0 to 180deg that has this cosine", "acos(0.5)",
+            to_angle(1, unary<ScalarOp::acos, K::angle>)),
+        row("atan2", {{"y", "x"}}, "the angle of the direction (x, y), from -180deg to 180deg",
+            "atan2(1, -1)", to_angle(2, pairwise<ScalarOp::atan2, K::angle>)),
+        row("min", pair, "the smaller one, component by component", "min((1, 5), (2, 3))",
+            same(ordered, 2, pairwise<ScalarOp::min>)),
+        row("max", pair, "the greater one, component by component", "max(1, 2)",
+            same(ordered, 2, pairwise<ScalarOp::max>)),
+        row("pow", {{"x", "exponent"}}, "x to the power of the exponent, as `x ^ exponent`", "pow(2, 10)",
+            same(n, 2, pairwise<ScalarOp::pow>)),
+        row("mod", {{"x", "divisor"}}, "the remainder with the sign of the divisor, as `x % divisor`",
+            "mod(-1, 3)", same({K::number, K::angle}, 2, modulo)),
+        row("clamp", {{"x", "low", "high"}}, "the nearest value from `low` to `high`", "clamp(7, 0, 5)",
+            clamps()),
+        row("mix", {{"a", "b", "t"}}, "a (1 - t) + b t", "mix(rgb(1, 0, 0), rgb(0, 0, 1), 0.25)", mixes()),
+        row("dot", pair, "the scalar product", "dot((1, 2, 3), (4, 5, 6))",
+            to_number(vectors, 2, dot_product)),
+        row("length", {{"v"}}, "the Euclidean length of a vector; a list has `len`", "length((3, 4))",
+            to_number(vectors, 1, length)),
+        row("normalize", {{"v"}}, "the vector of length 1 in this direction", "normalize((0, 3, 4))",
+            same(vectors, 1, normalize)),
+        row("cross", pair, "the vector product", "cross((1, 0, 0), (0, 1, 0))",
+            same({K::vec3}, 2, cross_product)),
+        row("random", {{"i"}, {"i", "j"}, {"i", "j", "k"}},
+            "a number from 0 up to 1 that depends on the arguments alone, the same on every machine",
+            "random(1, 2)", randoms()),
+        row("noise", {{"p"}}, "smooth value noise from 0 up to 1 of a point in one, two or three dimensions",
+            "noise((0.5, 0.25, 0))", not_per_point(to_number({K::number, K::vec2, K::vec3}, 1, noise))),
+        row("rgb", {{"r", "g", "b"}}, "a colour in linear light, Rec.709 primaries", "rgb(1, 0.5, 0)",
+            {{{K::number, K::number, K::number}, K::color, rgb}}),
+        row("srgb", {{"r", "g", "b"}},
+            "a colour in display-encoded values from 0 to 1 (IEC 61966-2-1), as a colour picker shows them",
+            "srgb(0.5, 0.5, 0.5)", {{{K::number, K::number, K::number}, K::color, srgb}}),
+        row("translate", {{"offset"}, {"x", "y", "z"}}, "moves by an offset", "translate(1, 2, 3)",
+            transforms({{K::vec3}, {K::number, K::number, K::number}}, translate)),
+        row("scale", {{"factor"}, {"x", "y", "z"}},
+            "stretches about the origin, the same in all directions or by one factor for each axis",
+            "scale(2, 1, 1)", transforms({{K::number}, {K::number, K::number, K::number}, {K::vec3}}, scale)),
+        row("rotate_x", angle, "turns about the x axis, right-handed", "rotate_x(90deg)",
+            transforms({{K::angle}}, rotate_about<0>)),
+        row("rotate_y", angle, "turns about the y axis, right-handed", "rotate_y(90deg)",
+            transforms({{K::angle}}, rotate_about<1>)),
+        row("rotate_z", angle, "turns about the z axis, right-handed", "rotate_z(90deg)",
+            transforms({{K::angle}}, rotate_about<2>)),
+        row("rotate", {{"axis", "angle"}}, "turns about an axis through the origin, right-handed",
+            "rotate((1, 1, 1), 120deg)", transforms({{K::vec3, K::angle}}, rotate)),
+        row("look_at", {{"eye", "target", "up"}},
+            "the view transform: the eye goes to the origin, the target to the negative z axis",
+            "look_at((0, 0, 5), (0, 0, 0), (0, 1, 0))",
+            transforms({{K::vec3, K::vec3, K::vec3}}, look_at_view)),
+        row("matrix", {{"m"}},
+            "a transform from 16 numbers, row by row, for column vectors; the last row is 0, 0, 0, 1",
+            "matrix([1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1])",
+            transforms({{Type::list_of(K::number)}}, matrix)),
+        row("inverse", {{"t"}}, "undoes a transform", "inverse(translate(1, 2, 3) then scale(2))",
+            transforms({{K::transform}}, inverse_of)),
     };
 }
 
@@ -315,6 +368,43 @@ const std::vector<Builtin>& table() {
 
 constexpr std::array<std::string_view, 4> list_functions{"map", "filter", "sum", "len"};
 constexpr std::array<std::string_view, 2> statements{"assert", "print"};
+
+/// Of what the checker types by itself; T and U stand for any type.
+std::vector<FunctionDoc> other_docs() {
+    return {
+        {"map",
+         {"map(list: [T], function: fn(T) -> U) -> [U]"},
+         "what the function makes of each element",
+         "map([1, 2, 3], fn(x: number) = x * x)"},
+        {"filter",
+         {"filter(list: [T], keep: fn(T) -> bool) -> [T]"},
+         "the elements for which the function gives `true`, in their order",
+         "filter([1, 2, 3, 4], fn(x: number) = x % 2 == 0)"},
+        {"sum",
+         {"sum(list: [number]) -> number", "sum(list: [angle]) -> angle", "sum(list: [vec2]) -> vec2",
+          "sum(list: [vec3]) -> vec3", "sum(list: [color]) -> color"},
+         "all elements added up; 0 of an empty list",
+         "sum([1, 2, 3])"},
+        {"len", {"len(list: [T]) -> number"}, "how many elements a list has", "len([5, 6, 7])"},
+        {"assert",
+         {"assert(condition: bool, text: string)"},
+         "a statement: where the condition does not hold, the text is reported as an error",
+         "assert(len([1, 2]) == 2, \"two elements\")"},
+        {"print",
+         {"print(value: T)"},
+         "a statement: says the value on standard error while the scene is compiled",
+         "print(sqrt(2))"},
+    };
+}
+
+std::string signature(std::string_view name, const Overload& overload) {
+    std::string text(name);
+    for (std::size_t i = 0; i < overload.parameters.size(); ++i) {
+        text += i == 0 ? "(" : ", ";
+        text += fmt::format("{}: {}", overload.names[i], to_string(overload.parameters[i]));
+    }
+    return text + ") -> " + to_string(overload.result);
+}
 constexpr std::array<std::string_view, 8> unsupported{"xyz",   "blackbody",    "spectrum",  "metal",
                                                       "frame", "chromaticity", "luminance", "time"};
 
@@ -335,6 +425,22 @@ const Builtin* find_builtin(std::string_view name) {
     }();
     const auto found = index.find(name);
     return found == index.end() ? nullptr : found->second;
+}
+
+const std::vector<FunctionDoc>& function_docs() {
+    static const std::vector<FunctionDoc> docs = [] {
+        std::vector<FunctionDoc> all;
+        for (const Builtin& builtin : table()) {
+            FunctionDoc& doc = all.emplace_back(FunctionDoc{builtin.name, {}, builtin.doc, builtin.example});
+            for (const Overload& overload : builtin.overloads) {
+                doc.signatures.push_back(signature(builtin.name, overload));
+            }
+        }
+        const std::vector<FunctionDoc> others = other_docs();
+        all.insert(all.end(), others.begin(), others.end());
+        return all;
+    }();
+    return docs;
 }
 
 const std::vector<std::string_view>& function_names() {

@@ -23,8 +23,9 @@ struct Overload {
     std::vector<Type> parameters;
     Type result;
     Value (*run)(BuiltinRun& run, const std::vector<Value>& arguments);
-    bool needs_constants = false; ///< takes known arguments only
-    bool per_point = true;        ///< can be part of a per-point function
+    bool needs_constants = false;          ///< takes known arguments only
+    bool per_point = true;                 ///< can be part of a per-point function
+    std::vector<std::string_view> names{}; ///< of the parameters
 };
 
 /// A function of the language with one result per list of parameter types. `map filter sum len` are typed by
@@ -32,7 +33,20 @@ struct Overload {
 struct Builtin {
     std::string_view name;
     std::vector<Overload> overloads;
+    std::string_view doc;     ///< one line
+    std::string_view example; ///< an expression
 };
+
+/// What an author is told of anything that is called, the list functions and statements too.
+struct FunctionDoc {
+    std::string_view name;
+    std::vector<std::string> signatures; ///< `mix(a: vec3, b: vec3, t: number) -> vec3`
+    std::string_view doc;                ///< one line
+    std::string_view example;            ///< an expression; of a statement, the statement
+};
+
+/// In the order of the table; the list functions and statements come last.
+const std::vector<FunctionDoc>& function_docs();
 
 const Builtin* find_builtin(std::string_view name);
 /// Every name that is a function to an author: the built-in ones, the list functions, `assert` and `print`.

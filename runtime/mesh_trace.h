@@ -208,13 +208,13 @@ public:
     void run() {
         traverse_beams(
             mesh_.nodes, beams_, [&](const BvhLeaf& leaf) { prefetch_leaf(mesh_, leaf); },
-            [&](unsigned packs, std::uint32_t first, std::uint32_t count) {
+            [&](unsigned packs, const Bounds<float>& box, std::uint32_t first, std::uint32_t count) {
                 if (apex_ == Apex::origin) {
                     test_from_apex(packs, first, count);
                 } else if (apex_ == Apex::end) {
-                    test_to_apex(packs, first, count);
+                    test_to_apex(packs_through(box, packs), first, count);
                 } else {
-                    test_from_anywhere(packs, first, count);
+                    test_from_anywhere(packs_through(box, packs), first, count);
                 }
                 return false;
             });
@@ -280,6 +280,23 @@ private:
         }
     }
 
+    /// Those of the packs of which a ray meets the box. Where triangles are small, rays that do not start at
+    /// one point leave much room between them, and most of what their beam meets lies there.
+    unsigned packs_through(const Bounds<float>& box, unsigned packs) const {
+        const Vec3<L> low = lanes<L>(lanes<R>(box.min)), high = lanes<L>(lanes<R>(box.max));
+        const L min[3] = {low.x, low.y, low.z}, max[3] = {high.x, high.y, high.z};
+        unsigned through = 0;
+        for (; packs != 0; packs &= packs - 1) {
+            const auto pack = static_cast<std::size_t>(__builtin_ctz(packs));
+            const auto range = packs_[pack].slabs->range(min, max);
+            const Ray<L>& ray = rays_[pack];
+            if (any(maximum(range.near, ray.t_min) <= minimum(range.far, ray.t_max))) {
+                through |= packs & -packs;
+            }
+        }
+        return through;
+    }
+
     /// What rays from one point see of a leaf's triangles is calculated once for all rays, for all triangles
     /// at once.
     void test_from_apex(unsigned packs, std::uint32_t first, std::uint32_t count) {
@@ -301,9 +318,7 @@ private:
     /// behind the rays' starts; and what is seen of the others from the end tells most rays that they miss.
     void test_to_apex(unsigned packs, std::uint32_t first, std::uint32_t count) {
         const Corners<T> corners = corners_at<T>(mesh_, {first, count, 0});
-        TriangleView<T> seen(relative_to(lanes<T>(point_), corners));
-        seen.tolerance = loose_tolerance(corners);
-        const Views views(seen, count);
+        std::optional<Views> views; // of most leaves none is needed
         const Vec3<T> normals = plane_normal(corners);
         R planes[6][bvh_max_leaf];
         const T* parts[6] = {&normals.x, &normals.y, &normals.z, &corners.a.x, &corners.a.y, &corners.a.z};
@@ -321,7 +336,12 @@ private:
                 if (none(ahead)) {
                     continue;
                 }
-                const EdgeFunctions<L> edges(views[i], ray.dir, packs_[pack].dir_size);
+                if (!views) {
+                    TriangleView<T> seen(relative_to(lanes<T>(point_), corners));
+                    seen.tolerance = loose_tolerance(corners);
+                    views.emplace(seen, count);
+                }
+                const EdgeFunctions<L> edges((*views)[i], ray.dir, packs_[pack].dir_size);
                 if (any(ahead & edges.may_pass())) {
                     test(pack, {first, count, i});
                 }

@@ -253,7 +253,7 @@ private:
         beams_ = &beams;
         traverse_beams(
             scene_.accelerator.nodes.data(), beams, [](const BvhLeaf&) {},
-            [&](unsigned packs, std::uint32_t first, std::uint32_t count) {
+            [&](unsigned packs, const Bounds<float>&, std::uint32_t first, std::uint32_t count) {
                 return test_leaf(first, count, packs);
             });
         beams_ = nullptr;

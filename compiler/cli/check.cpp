@@ -133,15 +133,6 @@ Json to_json(const lang::Param& param) {
     return json;
 }
 
-std::string to_text(const lang::Param& param) {
-    std::string text = fmt::format("{}: {} = {}", param.name, lang::to_string(param.type),
-                                   lang::to_string(param.default_value));
-    if (param.range) {
-        text += fmt::format(" in {}..{}", param.range->first, param.range->second);
-    }
-    return text + (param.text.empty() ? "\n" : fmt::format("  // {}\n", param.text));
-}
-
 int list_params(const ParamsOptions& options) {
     const Loaded loaded = load(options.scene, Stage::module);
     if (!report(loaded)) {
@@ -150,7 +141,7 @@ int list_params(const ParamsOptions& options) {
     std::string text;
     Json json = Json::array();
     for (const lang::Param& param : loaded.module.params) {
-        text += to_text(param);
+        text += compiler::described(param) + "\n";
         json.push_back(to_json(param));
     }
     write_result("-", options.json ? Json{{"schema", 1}, {"params", json}}.dump(2) + "\n" : text);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <map>
 #include <memory>
 #include <unistd.h>
 
@@ -16,7 +17,7 @@ namespace scc::cli {
 namespace {
 
 struct LspOptions {
-    SceneOptions scene;
+    compiler::SceneOptions scene;
     bool print_grammar = false;
 };
 
@@ -52,9 +53,11 @@ int serve(const LspOptions& options) {
     }
     std::signal(SIGPIPE, SIG_IGN); // a client that is gone is seen when it is written to
     const auto check = [&options](const std::string& path, const std::string& text) {
-        SceneOptions scene = options.scene;
+        const std::map<std::string, std::string> texts{{path, text}};
+        compiler::SceneOptions scene = options.scene;
         scene.file = path;
-        Loaded loaded = load_text(scene, text, Stage::scene);
+        scene.texts = &texts;
+        compiler::Loaded loaded = compiler::load(scene, compiler::Stage::scene);
         std::vector<lang::Diagnostic> diagnostics = loaded.diagnostics.sorted();
         std::vector<lang::lsp::ObjectPlace> objects = object_places(loaded.scene);
         return lang::lsp::Checked{std::move(loaded.sources), std::move(diagnostics), std::move(objects)};

@@ -6,7 +6,6 @@
 #include "lang/wording.h"
 
 #include <fmt/core.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <initializer_list>
@@ -254,20 +253,21 @@ private:
     }
 
     void functions() {
-        for (const std::string_view name : function_names()) {
-            if (is_statement(name)) {
+        for (const FunctionDoc& function : function_docs()) {
+            if (is_statement(function.name)) {
                 continue;
             }
-            Rank rank = Rank::possible;
-            if (const Builtin* builtin = find_builtin(name); builtin && context_.field) {
-                const bool gives_it =
-                    std::any_of(builtin->overloads.begin(), builtin->overloads.end(),
-                                [&](const Overload& overload) { return is_wanted(overload.result); });
-                rank = gives_it ? Rank::likely : Rank::possible;
-            }
-            Json& item = add_around(name, ItemKind::function, rank, "(", ")");
-            item["detail"] = fmt::format("{}", fmt::join(signatures(name), "\n"));
+            Json& item = add_around(function.name, ItemKind::function, rank_of(function), "(", ")");
+            item["detail"] = declaration(function);
+            item["documentation"] = {{"kind", "markdown"}, {"value", description(function)}};
         }
+    }
+    Rank rank_of(const FunctionDoc& function) const {
+        const Builtin* builtin = context_.field ? find_builtin(function.name) : nullptr;
+        const bool gives_it =
+            builtin && std::any_of(builtin->overloads.begin(), builtin->overloads.end(),
+                                   [&](const Overload& overload) { return is_wanted(overload.result); });
+        return gives_it ? Rank::likely : Rank::possible;
     }
 
     Document& document_;

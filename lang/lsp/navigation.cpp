@@ -7,7 +7,6 @@
 #include "lang/lsp/words.h"
 
 #include <fmt/core.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <vector>
@@ -148,8 +147,8 @@ Json hover(Document& document, const Schema& schema, std::uint32_t offset) {
     if (const Constructor* row = schema.find(word)) {
         return code_hover(document, span, declaration(*row), description(*row));
     }
-    if (const auto forms = signatures(word); !forms.empty()) {
-        return code_hover(document, span, fmt::format("{}", fmt::join(forms, "\n")), "");
+    if (const FunctionDoc* function = function_named(word)) {
+        return code_hover(document, span, declaration(*function), description(*function));
     }
     return nullptr;
 }

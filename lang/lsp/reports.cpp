@@ -4,6 +4,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 namespace scc::lang::lsp {
 namespace {
 
@@ -76,6 +78,21 @@ private:
     DiagnosticStyle style_;
 };
 
+/// Editors grow slow with more, and nobody reads them; `scc check` prints all.
+constexpr std::size_t most_published = 1000;
+
+std::vector<const Diagnostic*> gravest_first(const std::vector<Diagnostic>& diagnostics) {
+    std::vector<const Diagnostic*> sorted;
+    for (const Diagnostic& diagnostic : diagnostics) {
+        sorted.push_back(&diagnostic);
+    }
+    if (sorted.size() > most_published) {
+        std::stable_sort(sorted.begin(), sorted.end(),
+                         [](const Diagnostic* a, const Diagnostic* b) { return a->severity > b->severity; });
+    }
+    return sorted;
+}
+
 Json edit(Document& document, const std::vector<Fix>& fixes) {
     Json edits = Json::array();
     for (const Fix& fix : fixes) {
@@ -97,9 +114,16 @@ std::string title_of(const Fix& fix, std::string_view text) {
 
 Json published(Document& document, DiagnosticStyle style) {
     const Report report(document, style);
+    const std::vector<const Diagnostic*> all = gravest_first(document.checked->diagnostics);
     Json list = Json::array();
-    for (const Diagnostic& diagnostic : document.checked->diagnostics) {
-        list.push_back(report.json(diagnostic));
+    for (std::size_t i = 0; i < std::min(all.size(), most_published); ++i) {
+        list.push_back(report.json(*all[i]));
+    }
+    if (all.size() > most_published) {
+        list.push_back({{"range", document.range(0, 0)},
+                        {"severity", severity_of(Severity::note)},
+                        {"source", "scc"},
+                        {"message", fmt::format("{} more are not shown", all.size() - most_published)}});
     }
     return {{"uri", document.uri()}, {"version", document.version()}, {"diagnostics", std::move(list)}};
 }

@@ -1,26 +1,13 @@
 #include "lang/lsp/words.h"
 
-#include "lang/builtins.h"
 #include "lang/check.h"
 #include "lang/wording.h"
 
 #include <fmt/core.h>
-
-#include <array>
-#include <utility>
+#include <fmt/format.h>
 
 namespace scc::lang::lsp {
 namespace {
-
-/// The functions that the checker types by their arguments.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 6> special_forms{{
-    {"map", "map([A], fn(A) -> B) -> [B]"},
-    {"filter", "filter([A], fn(A) -> bool) -> [A]"},
-    {"sum", "sum([A]) -> A"},
-    {"len", "len([A]) -> number"},
-    {"assert", "assert(bool, string)"},
-    {"print", "print(A)"},
-}};
 
 /// Adds a paragraph of one sentence.
 void say(std::string& text, std::string sentence) {
@@ -29,16 +16,6 @@ void say(std::string& text, std::string sentence) {
         sentence[0] = first >= 'a' && first <= 'z' ? static_cast<char>(first - 'a' + 'A') : first;
         text += fmt::format("{}{}.", text.empty() ? "" : "\n\n", sentence);
     }
-}
-
-std::string signature(std::string_view name, const Overload& overload) {
-    std::string text(name);
-    const char* joint = "(";
-    for (const Type& type : overload.parameters) {
-        text += joint + to_string(type);
-        joint = ", ";
-    }
-    return text + ") -> " + to_string(overload.result);
 }
 
 std::string_view keyword(SymbolKind kind) {
@@ -116,19 +93,23 @@ std::string declaration(const Symbol& symbol, const Analysis& analysis) {
     return symbol.type.kind == TypeKind::error ? name : fmt::format("{}: {}", name, to_string(symbol.type));
 }
 
-std::vector<std::string> signatures(std::string_view function) {
-    for (const auto& [name, form] : special_forms) {
-        if (name == function) {
-            return {std::string(form)};
+const FunctionDoc* function_named(std::string_view name) {
+    for (const FunctionDoc& function : function_docs()) {
+        if (function.name == name) {
+            return &function;
         }
     }
-    std::vector<std::string> forms;
-    if (const Builtin* builtin = find_builtin(function)) {
-        for (const Overload& overload : builtin->overloads) {
-            forms.push_back(signature(function, overload));
-        }
-    }
-    return forms;
+    return nullptr;
+}
+
+std::string declaration(const FunctionDoc& function) {
+    return fmt::format("{}", fmt::join(function.signatures, "\n"));
+}
+
+std::string description(const FunctionDoc& function) {
+    std::string text;
+    say(text, std::string(function.doc));
+    return function.example.empty() ? text : fmt::format("{}\n\n```scn\n{}\n```", text, function.example);
 }
 
 Json markdown(const std::string& code, const std::string& text) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lang/builtins.h"
 #include "lang/lsp/document.h"
 #include "lang/schema.h"
 #include "lang/symbols.h"
@@ -20,8 +21,11 @@ std::string declaration(const Constructor& constructor);
 std::string description(const Constructor& constructor);
 /// `let red: material`, `fn checker(s: surface) -> color`
 std::string declaration(const Symbol& symbol, const Analysis& analysis);
-/// Every form of a built-in function, as `sin(angle) -> number`.
-std::vector<std::string> signatures(std::string_view function);
+/// Null for names of other things.
+const FunctionDoc* function_named(std::string_view name);
+/// Every form of it, a line each: `sin(a: angle) -> number`.
+std::string declaration(const FunctionDoc& function);
+std::string description(const FunctionDoc& function);
 
 /// A block of code and a text below it, as the protocol's MarkupContent.
 Json markdown(const std::string& code, const std::string& text);

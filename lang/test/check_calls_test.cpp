@@ -1,6 +1,9 @@
+#include "lang/builtins.h"
 #include "lang/test/toy_schema.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 namespace scc::lang {
 namespace {
@@ -143,6 +146,34 @@ TEST(Calls, OfStatementsStandOnTheirOwn) {
 )");
     EXPECT_EQ(Scene("assert(1, \"a\")").summary(), "1 type-mismatch\n");
     EXPECT_EQ(Scene("assert(true)").summary(), "1 argument-count\n");
+}
+
+TEST(Calls, EveryFunctionIsDescribedWithAnExampleThatRuns) {
+    for (const std::string_view name : function_names()) {
+        const auto& docs = function_docs();
+        const auto doc =
+            std::find_if(docs.begin(), docs.end(), [&](const FunctionDoc& row) { return row.name == name; });
+        ASSERT_NE(doc, docs.end()) << name;
+        EXPECT_FALSE(doc->doc.empty()) << name;
+        EXPECT_FALSE(doc->signatures.empty()) << name;
+        const std::string example(doc->example);
+        EXPECT_NE(example.find(name), std::string::npos) << name;
+        EXPECT_EQ(messages_of(is_statement(name) ? example : "print(" + example + ")"), "") << name;
+    }
+}
+
+TEST(Calls, SignaturesNameTheParameters) {
+    std::string text;
+    for (const FunctionDoc& row : function_docs()) {
+        if (row.name == "translate" || row.name == "atan2") {
+            for (const std::string& signature : row.signatures) {
+                text += signature + "\n";
+            }
+        }
+    }
+    EXPECT_EQ(text, "atan2(y: number, x: number) -> angle\n"
+                    "translate(offset: vec3) -> transform\n"
+                    "translate(x: number, y: number, z: number) -> transform\n");
 }
 
 } // namespace

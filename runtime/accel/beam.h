@@ -173,8 +173,8 @@ public:
 private:
     /// Steeper or more spread rays are traced in smaller parts. Those from one point fill their beam, so that
     /// little in it is tested in vain; for others, in meshes, these are the best of a few that were tried.
-    static constexpr float steepest = 4, most_spread_of_view = 0.6F, most_spread_of_packs = 0.02F,
-                           most_spread_of_pack = 0.07F;
+    static constexpr float steepest = 4, most_spread_of_view = 0.6F, most_spread_of_packs = 0.05F,
+                           most_spread_of_pack = 0.04F;
 
     /// A ray, or its reverse from the common end.
     struct Seen {
@@ -325,7 +325,7 @@ bool BeamSet<L>::add(int pack, const Seen& ray) {
     return true;
 }
 
-/// Calls leaf(packs, first, count) for the leaves that some packs of the beam may meet, near ones first,
+/// Calls leaf(packs, box, first, count) for the leaves that some packs of the beam may meet, near ones first,
 /// until it returns true; it may lower t_max of rays and tell `beams`.
 template <class L, class Prefetch, class Leaf>
 void traverse_beams(const BvhNode* nodes, const BeamSet<L>& beams, Prefetch&& prefetch, Leaf&& leaf) {
@@ -345,7 +345,7 @@ void traverse_beams(const BvhNode* nodes, const BeamSet<L>& beams, Prefetch&& pr
         [&](float near) { return near <= beams.all().far; }, prefetch,
         [&](const BvhNode& node, std::uint32_t slot, const BvhLeaf& found) {
             const unsigned packs = beams.packs_in(node, slot);
-            return packs != 0 && leaf(packs, found.first, found.count);
+            return packs != 0 && leaf(packs, box_of(node, slot), found.first, found.count);
         });
 }
 

@@ -65,9 +65,8 @@ inline void store_leaf(const MeshSource& source, const Bvh& bvh, const BvhLeaf& 
 inline Bounds<float> root_bounds(const std::vector<BvhNode>& nodes) {
     Bounds<float> box;
     if (!nodes.empty()) {
-        for (int i = 0; i < bvh_width; ++i) {
-            box.add(Bounds<float>{{nodes[0].min[0][i], nodes[0].min[1][i], nodes[0].min[2][i]},
-                                  {nodes[0].max[0][i], nodes[0].max[1][i], nodes[0].max[2][i]}});
+        for (std::size_t i = 0; i < bvh_width; ++i) {
+            box.add(box_of(nodes[0], i));
         }
     }
     return box;

@@ -2,6 +2,7 @@
 
 #include "runtime/accel/bvh_node.h"
 #include "runtime/accel/slabs.h"
+#include "runtime/bounds.h"
 #include "runtime/math/pack.h"
 
 #include <array>
@@ -20,6 +21,12 @@ inline void prefetch_bytes(const void* from, std::size_t bytes) {
 }
 inline void prefetch_node(const BvhNode& node) {
     prefetch_bytes(&node, sizeof node);
+}
+
+/// Of one of the node's children.
+inline Bounds<float> box_of(const BvhNode& node, std::size_t slot) {
+    return {{node.min[0][slot], node.min[1][slot], node.min[2][slot]},
+            {node.max[0][slot], node.max[1][slot], node.max[2][slot]}};
 }
 
 /// Visits the leaves that a test admits, near ones first. `test(node, near)` returns the node's children to

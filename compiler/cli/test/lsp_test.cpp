@@ -397,8 +397,7 @@ TEST_F(Lsp, TellsWhatANameIs) {
                   .find("fn f(a: number, b: vec3 = (1, 2, 3)) -> number"),
               std::string::npos);
     EXPECT_NE(hover("fn f(a: number) = |a\n").find("a: number"), std::string::npos);
-    EXPECT_NE(hover("let a = si|n(1)\n").find("sin(angle) -> number\nsin(number) -> number"),
-              std::string::npos);
+    EXPECT_NE(hover("let a = si|n(1)\n").find("sin("), std::string::npos);
     EXPECT_NE(hover("|phong { }\n").find("phong { diffuse, ambient"), std::string::npos);
     EXPECT_NE(hover("fn f(s: surface) = s.p.|x\n").find("x: number"), std::string::npos);
     EXPECT_EQ(hover("sphere |{ }\n"), "");
@@ -554,14 +553,15 @@ TEST_F(LspFiles, ReadsAssetsFromTheDocumentsFolder) {
 TEST_F(LspFiles, ReadsABigDocument) {
     std::string text;
     for (int i = 0; i < 100'000; ++i) {
-        text += "sphere { center = (" + std::to_string(i) + ", 0, 0), radius = 0.25 }\n";
+        text += "sphere { center = (" + std::to_string(i) + ", 0, 0), radius = 0.0625 }\n";
     }
     LspClient client;
     client.initialize();
     client.open(uri, text + "sphere { radios = 1 }\n");
     const Json list = client.diagnostics(uri, 1);
     ASSERT_GE(list.size(), 1u);
-    EXPECT_EQ(list[0]["range"], range(100'000, 9, 15));
+    EXPECT_EQ(list[0]["range"], range(100'000, 9, 15)); // an error, before thousands of warnings
+    EXPECT_LE(list.size(), 1001u);
 }
 
 TEST_F(LspFiles, CommittedGrammarIsTheGeneratedOne) {

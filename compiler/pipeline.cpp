@@ -1,4 +1,4 @@
-#include "compiler/cli/pipeline.h"
+#include "compiler/pipeline.h"
 
 #include "compiler/lower.h"
 #include "compiler/passes/passes.h"
@@ -17,7 +17,7 @@
 #include <iterator>
 #include <unistd.h>
 
-namespace scc::cli {
+namespace scc::compiler {
 
 namespace fs = std::filesystem;
 
@@ -69,9 +69,8 @@ std::vector<lang::Definition> parse_definitions(const std::vector<std::string>& 
     return definitions;
 }
 
-compiler::LowerOptions lower_options(const SceneOptions& options,
-                                     const std::vector<lang::Definition>& definitions) {
-    compiler::LowerOptions result;
+LowerOptions lower_options(const SceneOptions& options, const std::vector<lang::Definition>& definitions) {
+    LowerOptions result;
     result.name = fs::path(options.file).stem().string();
     result.camera = options.camera;
     result.keep_meshes = options.keep_meshes;
@@ -85,14 +84,18 @@ compiler::LowerOptions lower_options(const SceneOptions& options,
 
 // Of a scene that has mistakes, what has none is lowered for the mistakes that only show there. What depends
 // on the scene as a whole is not to be trusted: a camera or a light may be among what is left out.
-void lower_the_rest(Loaded& loaded, const compiler::LowerOptions& options) {
+void lower_the_rest(Loaded& loaded, const LowerOptions& options) {
     lang::Diagnostics found;
-    compiler::lower(loaded.module, options, found);
+    lower(loaded.module, options, found);
     for (const lang::Diagnostic& diagnostic : found.sorted()) {
         if (diagnostic.severity != lang::Severity::note && diagnostic.kind != lang::Diag::unknown_camera) {
             loaded.diagnostics.add(diagnostic);
         }
     }
+}
+
+std::string read_text(const SceneOptions& options, const std::string& path) {
+    return options.texts != nullptr ? options.texts->at(path) : read_text_file(path);
 }
 
 // Runs one stage and notes how long it took.
@@ -104,13 +107,13 @@ void timed(Loaded& loaded, const char* stage, Run run) {
     loaded.times_ms.emplace_back(stage, gone.count());
 }
 
-// Reading the text counts as parsing.
-template <class Read>
-Loaded load_from(const SceneOptions& options, const Read& read, Stage last) {
+} // namespace
+
+Loaded load(const SceneOptions& options, Stage last) {
     Loaded loaded;
     const std::vector<lang::Definition> definitions = parse_definitions(options.definitions);
     timed(loaded, "parse", [&] {
-        const lang::FileId file = loaded.sources.add(options.file, read());
+        const lang::FileId file = loaded.sources.add(options.file, read_text(options, options.file));
         if (last >= Stage::module) {
             loaded.tree = lang::read_file(loaded.sources, file, loaded.diagnostics);
             return;
@@ -125,37 +128,25 @@ Loaded load_from(const SceneOptions& options, const Read& read, Stage last) {
         return loaded;
     }
     timed(loaded, "check", [&] {
-        loaded.module = lang::check(loaded.tree, compiler::scene_schema(), definitions, loaded.sources,
-                                    loaded.diagnostics);
+        loaded.module =
+            lang::check(loaded.tree, scene_schema(), definitions, loaded.sources, loaded.diagnostics);
     });
     if (last < Stage::scene) {
         return loaded;
     }
     timed(loaded, "lower", [&] {
-        const compiler::LowerOptions lowering = lower_options(options, definitions);
+        const LowerOptions lowering = lower_options(options, definitions);
         if (loaded.diagnostics.has_errors()) {
             lower_the_rest(loaded, lowering);
         } else {
-            loaded.scene = compiler::lower(loaded.module, lowering, loaded.diagnostics);
-            compiler::check_scene(loaded.module, loaded.scene, loaded.diagnostics);
+            loaded.scene = lower(loaded.module, lowering, loaded.diagnostics);
+            check_scene(loaded.module, loaded.scene, loaded.diagnostics);
         }
     });
     if (!loaded.diagnostics.has_errors()) {
-        timed(loaded, "passes", [&] { compiler::run_passes(loaded.scene); });
+        timed(loaded, "passes", [&] { run_passes(loaded.scene); });
     }
     return loaded;
-}
-
-} // namespace
-
-Loaded load(const SceneOptions& options, Stage last) {
-    return load_from(
-        options, [&] { return read_text_file(options.file); }, last);
-}
-
-Loaded load_text(const SceneOptions& options, std::string text, Stage last) {
-    return load_from(
-        options, [&] { return std::move(text); }, last);
 }
 
 bool report(const Loaded& loaded) {
@@ -177,4 +168,13 @@ bool report(const Loaded& loaded) {
     return !loaded.diagnostics.has_errors();
 }
 
-} // namespace scc::cli
+std::string described(const lang::Param& param) {
+    std::string text = fmt::format("{}: {} = {}", param.name, lang::to_string(param.type),
+                                   lang::to_string(param.default_value));
+    if (param.range) {
+        text += fmt::format(" in {}..{}", param.range->first, param.range->second);
+    }
+    return text + (param.text.empty() ? "" : fmt::format("  // {}", param.text));
+}
+
+} // namespace scc::compiler
