@@ -122,12 +122,17 @@ void check_frame(const SceneOptions& options, Loaded& loaded) {
 }
 
 std::string read_text(const SceneOptions& options, const std::string& path) {
-    return options.texts != nullptr ? options.texts->at(path) : read_text_file(path);
+    if (options.texts != nullptr) {
+        if (const auto found = options.texts->find(path); found != options.texts->end()) {
+            return found->second;
+        }
+    }
+    return read_text_file(path);
 }
 
 std::unique_ptr<lang::Importer> make_importer(const SceneOptions& options,
                                               const std::vector<lang::Definition>& definitions) {
-    if (options.texts != nullptr) {
+    if (options.only_texts) {
         return std::make_unique<TextImporter>(*options.texts);
     }
     return std::make_unique<FileImporter>(asset_policy(options, definitions));

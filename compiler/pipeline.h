@@ -24,8 +24,9 @@ struct SceneOptions {
     std::optional<std::int64_t> frame; ///< of an animated scene; nothing: its first
     bool keep_meshes = true;           ///< in the user's cache
     bool tells_frame = true;           ///< of an animated scene, which one was taken
-    /// Null, or the texts of all files of the scene, which then are not read.
+    /// Texts that stand for the content of files; null: none.
     const std::map<std::string, std::string>* texts = nullptr;
+    bool only_texts = false; ///< scene files are not read: those are all
 };
 
 /// A scene on its way through the stages; each stage is run by `load` as far as it was asked to.

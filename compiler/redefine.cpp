@@ -14,7 +14,8 @@ std::string redefine(const host::Redefinition& wanted) {
                          .asset_paths = wanted.asset_paths,
                          .camera = kept.camera,
                          .frame = kept.frame,
-                         .texts = &kept.texts};
+                         .texts = &kept.texts,
+                         .only_texts = true};
     options.definitions.insert(options.definitions.end(), wanted.definitions.begin(),
                                wanted.definitions.end());
     const Loaded loaded = load(options, Stage::scene);

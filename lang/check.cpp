@@ -5,6 +5,7 @@
 #include "lang/frame.h"
 #include "lang/imports.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace scc::lang {
@@ -55,6 +56,36 @@ Module check(std::shared_ptr<const ast::File> file, const Schema& schema,
     module.prints = evaluator.take_prints();
     report.flush(diagnostics);
     return module;
+}
+
+SymbolIndex find_symbols(const ast::File& file, const Schema& schema, SourceSet& sources) {
+    Diagnostics ignored;
+    ImportSession session;
+    SymbolIndex symbols;
+    Checker(schema, sources, ignored, {}, session, &symbols).run(file, {});
+    return symbols;
+}
+
+std::optional<std::string> evaluate_name(std::shared_ptr<const ast::File> file, Span name,
+                                         const Schema& schema, SourceSet& sources,
+                                         const EvaluationLimits& limits) {
+    Diagnostics ignored;
+    ImportSession session;
+    Storage storage{std::move(file), {}, {}};
+    storage.code = Checker(schema, sources, ignored, limits, session).run(*storage.file, {});
+    const auto& names = storage.code.cells;
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+        return std::nullopt;
+    }
+    RunReport report;
+    Evaluator evaluator(limits, report);
+    const FramePtr globals = frame_of(storage.code, nullptr, storage);
+    const Value value = evaluator.cell(globals, static_cast<std::uint32_t>(found - names.begin()));
+    const bool is_plain = !std::holds_alternative<ErrorValue>(value.v) &&
+                          !std::holds_alternative<ClosurePtr>(value.v) &&
+                          !std::holds_alternative<ThingPtr>(value.v);
+    return is_plain ? std::optional(to_string(value)) : std::nullopt;
 }
 
 std::vector<Scalar> trace(const ClosurePtr& function, SymbolBuilder& builder, Diagnostics& diagnostics) {

@@ -138,7 +138,7 @@ Typed Checker::function_call(const ast::Call& node, const Binding& binding, Type
     for (std::size_t i = 0; i < node.arguments.size(); ++i) {
         const ast::Argument& argument = node.arguments[i];
         Typed value = expression(argument.value, place.unnamed());
-        const std::size_t at = parameter_of(node, i, binding);
+        const std::size_t at = parameter_of(node, i, binding, place);
         understood = understood && at != no_parameter;
         if (at >= formals.size()) {
             continue;
@@ -172,9 +172,10 @@ Typed Checker::function_call(const ast::Call& node, const Binding& binding, Type
 }
 
 /// The index of the parameter that an argument is for; past the last one if there are too many.
-std::size_t Checker::parameter_of(const ast::Call& node, std::size_t argument, const Binding& function) {
+std::size_t Checker::parameter_of(const ast::Call& node, std::size_t argument, const Binding& function,
+                                  const Place& place) {
     if (const auto& name = node.arguments[argument].name) {
-        return parameter_index(function.function->formals, *name, function);
+        return parameter_index(*name, function, place);
     }
     const auto named = [](const ast::Argument& earlier) { return earlier.name.has_value(); };
     const auto begin = node.arguments.begin();
@@ -185,15 +186,17 @@ std::size_t Checker::parameter_of(const ast::Call& node, std::size_t argument, c
     return argument;
 }
 
-std::size_t Checker::parameter_index(const std::vector<ast::Formal>& formals, const ast::Name& name,
-                                     const Binding& function) {
+std::size_t Checker::parameter_index(const ast::Name& name, const Binding& function, const Place& place) {
+    const std::vector<ast::Formal>& formals = function.function->formals;
     std::vector<std::string_view> names;
     for (const ast::Formal& formal : formals) {
         names.push_back(formal.name.text);
     }
     const auto found = std::find(names.begin(), names.end(), name.text);
     if (found != names.end()) {
-        return static_cast<std::size_t>(found - names.begin());
+        const auto index = static_cast<std::size_t>(found - names.begin());
+        mention(formals[index].name.span, name.span, place);
+        return index;
     }
     const auto best = nearest(name.text, names);
     Diagnostic& diagnostic =

@@ -5,6 +5,7 @@ namespace scc::lang {
 
 Typed Checker::reference(Binding& binding, Span span, const Place& place) {
     Names::note_use(binding, span, place.owner);
+    mention(binding.span, span, place);
     ensure(binding);
     if (binding.kind == Binding::Kind::import) {
         if (binding.imported) {
@@ -96,10 +97,10 @@ void Checker::defaults(const std::vector<ast::Formal>& formals, const std::vecto
 }
 
 Scope& Checker::bind_formals(const std::vector<ast::Formal>& formals, const std::vector<Type>& types,
-                             Scope* outer, Binding* owner) {
-    Scope& scope = names_.add_scope(outer);
+                             const Place& outer, Span extent) {
+    Scope& scope = names_.add_scope(outer.scope, extent);
     for (std::size_t i = 0; i < formals.size(); ++i) {
-        Binding& formal = bind(scope, Binding::Kind::variable, formals[i].name, owner);
+        Binding& formal = bind(scope, Binding::Kind::variable, formals[i].name, outer.owner);
         formal.type = types[i];
     }
     return scope;
@@ -129,10 +130,11 @@ void Checker::ensure_function(Binding& binding) {
     const std::vector<Type> parameters(binding.type.args.begin(), binding.type.args.end() - 1);
     FunctionCode& code = *binding.function_code;
     defaults(function.formals, parameters, {binding.scope, &binding, {}}, code);
-    Scope& scope = bind_formals(function.formals, parameters, binding.scope, &binding);
+    Scope& scope = bind_formals(function.formals, parameters, {binding.scope, &binding, {}}, binding.extent);
     for (const ast::Let& let : function.body.lets) {
         Binding& local = bind(scope, Binding::Kind::let, let.name, &binding);
         local.let = &let;
+        local.extent = let.span;
     }
     for (Binding* local : scope.cells) {
         ensure(*local);
@@ -163,7 +165,7 @@ Typed Checker::check(const ast::Lambda& node, const ast::Expr& expr, const Place
     code.span = expr.span;
     const std::vector<Type> parameters = formal_types(node.formals);
     defaults(node.formals, parameters, place, code);
-    Scope& scope = bind_formals(node.formals, parameters, place.scope, place.owner);
+    Scope& scope = bind_formals(node.formals, parameters, place, expr.span);
     Typed result = expression(node.body, {&scope, place.owner, {}});
     code.result = std::move(result.code);
     close(scope, code.cells);

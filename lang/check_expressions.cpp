@@ -69,21 +69,6 @@ std::string as_lambda(const Builtin& builtin) {
     return fmt::format("fn({}) = {}({})", formals, builtin.name, names);
 }
 
-std::vector<std::string_view> members_of(TypeKind kind) {
-    switch (kind) {
-    case TypeKind::vec2:
-        return {"x", "y"};
-    case TypeKind::vec3:
-        return {"x", "y", "z"};
-    case TypeKind::color:
-        return {"r", "g", "b"};
-    case TypeKind::surface:
-        return {"p", "world", "n", "uv"};
-    default:
-        return {};
-    }
-}
-
 } // namespace
 
 Typed Checker::expression(const ast::ExprPtr& expr, const Place& place) {
@@ -212,7 +197,7 @@ Type Checker::element_of(const Type& range, Span span) {
 
 Typed Checker::check(const ast::Comprehension& node, const ast::Expr& expr, const Place& place) {
     Typed range = expression(node.range, place.unnamed());
-    Scope& scope = names_.add_scope(place.scope);
+    Scope& scope = names_.add_scope(place.scope, expr.span);
     Binding& variable = bind(scope, Binding::Kind::variable, node.variable, place.owner);
     variable.type = node.range ? element_of(range.type, node.range->span) : Type{};
     Typed element = expression(node.element, {&scope, place.owner, place.thing_name});
@@ -272,6 +257,9 @@ Typed Checker::check(const ast::Member& node, const ast::Expr& expr, const Place
         return imported_member(*import, node.member, expr.span, place);
     }
     Typed object = expression(node.object, place.unnamed());
+    if (symbols_) {
+        symbols_->members.push_back({node.member.span, object.type});
+    }
     if (object.type.kind == TypeKind::error) {
         return {};
     }

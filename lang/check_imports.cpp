@@ -32,9 +32,9 @@ CheckedFile& CheckedFile::operator=(CheckedFile&&) noexcept = default;
 CheckedFile::~CheckedFile() = default;
 
 Checker::Checker(const Schema& schema, SourceSet& sources, Diagnostics& diagnostics,
-                 const EvaluationLimits& limits, ImportSession& session)
+                 const EvaluationLimits& limits, ImportSession& session, SymbolIndex* symbols)
     : schema_(schema), sources_(sources), diagnostics_(diagnostics), limits_(limits), session_(session),
-      names_(diagnostics) {}
+      names_(diagnostics), symbols_(symbols) {}
 
 /// Of a file that another one imports, and whose unit it counts in unless it has its own.
 Checker::Checker(Importing importing)

@@ -1,4 +1,5 @@
 #include "lang/imports.h"
+#include "lang/lexer.h"
 #include "lang/wording.h"
 
 namespace scc::lang {
@@ -43,7 +44,8 @@ CheckedFile Checker::run(const ast::File& file, const std::vector<Definition>& g
         find_frames(file);
     }
     CheckedFile checked;
-    Scope& scope = names_.add_scope(nullptr);
+    const auto size = static_cast<std::uint32_t>(sources_.file(file.file).text().size());
+    Scope& scope = names_.add_scope(nullptr, {file.file, 0, size});
     file_scope_ = &scope;
     const Place place{&scope, nullptr, {}};
     check_definitions(declare(file.items, place, true));
@@ -53,6 +55,7 @@ CheckedFile Checker::run(const ast::File& file, const std::vector<Definition>& g
     const Around around{.is_file = true, .at_top = true, .fields = &fields, .is_sound = &is_sound};
     checked.body.items = items(file.items, around, place);
     for (Binding* binding : scope.cells) {
+        checked.cells.push_back(binding->span);
         if (binding->kind == Binding::Kind::param) {
             checked.params.push_back(param_code(*binding));
         }
@@ -63,6 +66,9 @@ CheckedFile Checker::run(const ast::File& file, const std::vector<Definition>& g
     }
     if (unused_is_known_) { // a misspelt use would leave its name unused
         names_.warn_unused([this](std::string_view name) { return is_lost(name); });
+    }
+    if (symbols_) {
+        add_symbols();
     }
     close(scope, checked.body.cells);
     checked.imports = std::move(imports_);
@@ -98,6 +104,7 @@ std::vector<Binding*> Checker::declare(const std::vector<ast::Item>& items, cons
         return bindings.back();
     };
     for (const ast::Item& item : items) {
+        const std::size_t known = bindings.size();
         if (const auto* let = std::get_if<ast::Let>(&item.node)) {
             add(Binding::Kind::let, let->name)->let = let;
         } else if (const auto* function = std::get_if<ast::Function>(&item.node)) {
@@ -114,6 +121,9 @@ std::vector<Binding*> Checker::declare(const std::vector<ast::Item>& items, cons
                 import_file(*import, binding);
             }
         }
+        if (bindings.size() > known) {
+            bindings.back()->extent = item.span;
+        }
     }
     return bindings;
 }
@@ -126,6 +136,36 @@ void Checker::check_definitions(const std::vector<Binding*>& bindings) {
             ensure(*binding);
         }
     }
+}
+
+void Checker::mention(Span definition, Span span, const Place& place) {
+    if (symbols_) {
+        mentions_.push_back({definition, span, place.scope});
+    }
+}
+
+/// Hands over what is known of names.
+void Checker::add_symbols() {
+    for (Names::Found& found : mentions_) {
+        found.span = without_brackets(found.span);
+    }
+    std::vector<MemberMention> members = std::move(symbols_->members);
+    *symbols_ = names_.index(std::move(mentions_));
+    symbols_->members = std::move(members);
+}
+
+/// The name that an expression consists of: parentheses leave no trace but its span.
+Span Checker::without_brackets(Span span) {
+    if (!sources_.text(span).starts_with('(')) {
+        return span;
+    }
+    Diagnostics ignored;
+    for (const Token& token : lex_within(sources_, span, ignored)) {
+        if (token.kind == TokenKind::name) {
+            return token.span;
+        }
+    }
+    return span;
 }
 
 /// Hands over what the scope's cells are computed from.
@@ -156,7 +196,7 @@ BodyCode Checker::body(const ast::Body& body, const Around& around, const Place&
         code.items = items(body.items, within, place);
         return code;
     }
-    Scope& scope = names_.add_scope(place.scope);
+    Scope& scope = names_.add_scope(place.scope, body.span);
     const Place inner{&scope, place.owner, {}};
     check_definitions(declare(body.items, inner, false));
     code.items = items(body.items, within, inner);
@@ -191,7 +231,7 @@ void Checker::item(const ast::Function&, Span, const Into&) {}
 
 void Checker::item(const ast::For& item, Span span, const Into& into) {
     Typed range = expression(item.range, into.place.unnamed());
-    Scope& scope = names_.add_scope(into.place.scope);
+    Scope& scope = names_.add_scope(into.place.scope, item.body.span);
     const Place inner{&scope, into.place.owner, {}};
     bind(scope, Binding::Kind::variable, item.variable, into.place.owner).type =
         item.range ? element_of(range.type, item.range->span) : Type{};

@@ -150,7 +150,7 @@ CodePtr Checker::given_value(const Definition& definition, const ParamCode& para
         return make_code(code::Constant{{definition.value}}, all);
     }
     const ast::ExprPtr& expr = given_.emplace_back(parse_expression(sources_, file, diagnostics_));
-    Scope& scope = names_.add_scope(nullptr);
+    Scope& scope = names_.add_scope(nullptr, all);
     Typed value = expression(expr, {&scope, nullptr, {}});
     if (expr) {
         expect(fmt::format("the param `{}`", param.name), param.type, value, *expr);

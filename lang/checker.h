@@ -9,6 +9,7 @@
 #include "lang/scope.h"
 #include "lang/source.h"
 #include "lang/stack_guard.h"
+#include "lang/symbols.h"
 
 #include <deque>
 #include <map>
@@ -42,6 +43,7 @@ struct CheckedFile {
     std::vector<std::unique_ptr<ImportedFile>> imports;
     Animated animated;
     BodyCode body;
+    std::vector<Span> cells; ///< the names whose values the cells of `body` hold
     std::vector<ParamCode> params;
     std::deque<FunctionCode> functions;
     std::deque<ast::File> expanded; ///< rows of tables that the code refers to
@@ -68,8 +70,9 @@ struct Place {
 /// type.
 class Checker {
 public:
+    /// With `symbols`, what the names stand for goes there.
     Checker(const Schema& schema, SourceSet& sources, Diagnostics& diagnostics,
-            const EvaluationLimits& limits, ImportSession& session);
+            const EvaluationLimits& limits, ImportSession& session, SymbolIndex* symbols = nullptr);
     ~Checker();
 
     CheckedFile run(const ast::File& file, const std::vector<Definition>& definitions);
@@ -111,6 +114,9 @@ private:
     std::vector<Binding*> declare(const std::vector<ast::Item>& items, const Place& place, bool at_top);
     Binding& bind(Scope& scope, Binding::Kind kind, const ast::Name& name, Binding* owner);
     void check_definitions(const std::vector<Binding*>& bindings);
+    void mention(Span definition, Span span, const Place& place);
+    void add_symbols();
+    Span without_brackets(Span span);
     std::vector<ItemCode> items(const std::vector<ast::Item>& items, const Around& around,
                                 const Place& place);
     BodyCode body(const ast::Body& body, const Around& around, const Place& place);
@@ -174,8 +180,8 @@ private:
     std::vector<Type> formal_types(const std::vector<ast::Formal>& formals);
     void defaults(const std::vector<ast::Formal>& formals, const std::vector<Type>& types, const Place& place,
                   FunctionCode& function);
-    Scope& bind_formals(const std::vector<ast::Formal>& formals, const std::vector<Type>& types, Scope* outer,
-                        Binding* owner);
+    Scope& bind_formals(const std::vector<ast::Formal>& formals, const std::vector<Type>& types,
+                        const Place& outer, Span extent);
     Type type(const ast::TypeExpr* written);
     Type bounded(Type type, Span span);
 
@@ -219,9 +225,9 @@ private:
     Typed list_call(const ast::Call& node, std::string_view name, Span span, const Place& place);
     Typed constructor_call(std::string_view name, Span name_span, Span span);
     static constexpr std::size_t no_parameter = static_cast<std::size_t>(-1);
-    std::size_t parameter_of(const ast::Call& node, std::size_t argument, const Binding& function);
-    std::size_t parameter_index(const std::vector<ast::Formal>& formals, const ast::Name& name,
-                                const Binding& function);
+    std::size_t parameter_of(const ast::Call& node, std::size_t argument, const Binding& function,
+                             const Place& place);
+    std::size_t parameter_index(const ast::Name& name, const Binding& function, const Place& place);
     std::vector<Typed> arguments(const ast::Call& node, std::string_view subject, const Place& place);
     bool argument_count(std::size_t wanted, std::string_view subject, const ast::Call& node, Span span);
     void no_overload(const ast::Call& node, const Builtin& builtin, std::vector<Typed>& values, Span span);
@@ -250,6 +256,8 @@ private:
     std::vector<std::unique_ptr<ImportedFile>> imports_;
     std::vector<std::unique_ptr<ImportedNames>> imported_;
     bool import_failed_ = false;
+    SymbolIndex* symbols_; ///< null: nobody asked
+    std::vector<Names::Found> mentions_;
     std::deque<FunctionCode> functions_;
     std::deque<ast::ExprPtr> given_;
     std::deque<ast::File> expanded_;

@@ -24,27 +24,6 @@ bool within(const Limits& limits, const Components& parts) {
     return nonzero || !limits.nonzero_vector;
 }
 
-/// The limits in words, for a field whose row has none.
-std::string rule_of(const Field& field) {
-    const Limits& limits = field.limits;
-    if (!limits.rule.empty()) {
-        return std::string(limits.rule);
-    }
-    const TypeKind kind = field.type.kind == TypeKind::angle ? TypeKind::angle : TypeKind::number;
-    const auto text = [kind](double value) { return to_string(compose(kind, {Scalar{value}})); };
-    std::string rule = in_code(field.name) + " is " +
-                       (limits.nonzero_vector ? "not the zero vector"
-                        : limits.square       ? "a square number"
-                        : limits.integer      ? "a whole number"
-                                              : "");
-    const char* joint = rule.ends_with(' ') ? "" : ", ";
-    if (std::isfinite(limits.min)) {
-        rule += joint + std::string(limits.min_excluded ? "greater than " : "at least ") + text(limits.min);
-        joint = " and ";
-    }
-    return std::isfinite(limits.max) ? rule + joint + "at most " + text(limits.max) : rule;
-}
-
 } // namespace
 
 bool Evaluator::check_field(const Field& field, const Value& value, const Code& code) {

@@ -38,6 +38,8 @@ public:
     /// Evaluates what the file imports, then the items of those files.
     void imports(const CheckedFile& file);
     Value call(const FunctionCode& function, const FramePtr& frame, std::vector<Value> arguments, Span span);
+    /// The value of a name.
+    Value cell(const FramePtr& frame, std::uint32_t index);
 
     std::vector<std::string> take_prints() { return std::move(prints_); }
 
@@ -51,7 +53,6 @@ private:
     };
 
     Value eval(const Code& code, const FramePtr& frame);
-    Value cell(const FramePtr& frame, std::uint32_t index);
     bool step(Span span);
     void stop(Diag kind, Span span, std::uint64_t limit);
     Value failed() { return {ErrorValue{}}; }

@@ -1,11 +1,14 @@
 #include "lang/format.h"
 
 #include "lang/brackets.h"
+#include "lang/dump.h"
 #include "lang/format_structure.h"
+#include "lang/parser.h"
 #include "lang/utf8.h"
 
 #include <algorithm>
 #include <optional>
+#include <stdexcept>
 #include <string_view>
 
 namespace scc::lang {
@@ -485,6 +488,18 @@ void Formatter::body(std::uint32_t open) {
 
 std::string format(const SourceSet& sources, const std::vector<Token>& tokens, const ast::File& file) {
     return Formatter(sources.file(file.file), tokens, file).run();
+}
+
+std::string checked_format(const SourceSet& sources, const std::vector<Token>& tokens,
+                           const ast::File& file) {
+    std::string result = format(sources, tokens, file);
+    SourceSet laid_out;
+    Diagnostics ignored;
+    if (dump_ast(*parse_file(laid_out, laid_out.add("", result), ignored)) != dump_ast(file)) {
+        throw std::logic_error(
+            fmt::format("the layout of `{}` would change its meaning", sources.file(file.file).path()));
+    }
+    return result;
 }
 
 } // namespace scc::lang

@@ -17,4 +17,8 @@ namespace scc::lang {
 /// line. Lines that the author began within an item begin there still.
 std::string format(const SourceSet& sources, const std::vector<Token>& tokens, const ast::File& file);
 
+/// The same, after reading the result once more. Throws std::logic_error if the layout would change what the
+/// text means, which is a mistake of ours.
+std::string checked_format(const SourceSet& sources, const std::vector<Token>& tokens, const ast::File& file);
+
 } // namespace scc::lang

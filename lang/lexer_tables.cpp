@@ -80,11 +80,15 @@ std::optional<std::string_view> likely_unit(std::string_view text) {
             return unit;
         }
     }
+    return nearest(text, unit_names());
+}
+
+std::vector<std::string_view> unit_names() {
     std::vector<std::string_view> names;
     for (const auto& [name, unit] : units) {
         names.push_back(name);
     }
-    return nearest(text, names);
+    return names;
 }
 
 std::string_view ascii_look_alike(char32_t code) {

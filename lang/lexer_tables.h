@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 /// What the lexer knows about characters and words.
 namespace scc::lang {
@@ -44,6 +45,7 @@ constexpr bool continues_name(char c) {
 TokenKind kind_of_word(std::string_view word);
 
 std::optional<ast::Unit> unit_named(std::string_view text);
+std::vector<std::string_view> unit_names();
 /// What the author of an unknown unit most likely meant.
 std::optional<std::string_view> likely_unit(std::string_view text);
 

@@ -37,6 +37,9 @@ struct Field {
     std::string_view doc{};
 };
 
+/// The field's limits in words; empty if it has none.
+std::string rule_of(const Field& field);
+
 struct Constructor {
     std::string_view name{};
     TypeKind type = TypeKind::error; ///< what it makes

@@ -4,8 +4,8 @@
 
 namespace scc::lang {
 
-Scope& Names::add_scope(Scope* parent) {
-    scopes_.push_back({parent, {}, {}});
+Scope& Names::add_scope(Scope* parent, Span extent) {
+    scopes_.push_back({parent, extent, {}, {}});
     return scopes_.back();
 }
 
@@ -14,6 +14,7 @@ Binding& Names::bind(Scope& scope, Binding::Kind kind, std::string_view name, Sp
     binding.kind = kind;
     binding.name = name;
     binding.span = span;
+    binding.extent = span;
     binding.scope = &scope;
     binding.owner = owner;
     const bool has_cell =

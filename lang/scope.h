@@ -4,6 +4,7 @@
 #include "lang/code.h"
 #include "lang/diagnostic.h"
 #include "lang/source.h"
+#include "lang/symbols.h"
 #include "lang/type.h"
 
 #include <cstdint>
@@ -27,12 +28,13 @@ struct Use {
 /// A name with what it stands for. Its type is found when it is first needed, so definitions may stand in any
 /// order.
 struct Binding {
-    enum class Kind { let, param, function, variable, import, misplaced };
+    using Kind = SymbolKind;
     enum class State { unchecked, checking, checked };
 
     Kind kind = Kind::variable;
     std::string_view name;
     Span span;
+    Span extent; ///< of the whole definition; of a variable its name's
     Scope* scope = nullptr;
     Binding* owner = nullptr; ///< the definition within which this one stands
     State state = State::unchecked;
@@ -54,6 +56,7 @@ struct Binding {
 /// The names of one body, function or loop; one frame at run time.
 struct Scope {
     Scope* parent = nullptr;
+    Span extent; ///< from where its names are seen
     std::unordered_map<std::string_view, Binding*> names;
     std::vector<Binding*> cells;
 };
@@ -63,7 +66,7 @@ class Names {
 public:
     explicit Names(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
-    Scope& add_scope(Scope* parent);
+    Scope& add_scope(Scope* parent, Span extent);
     /// A second binding of a name in one scope is reported; the name keeps its first meaning.
     Binding& bind(Scope& scope, Binding::Kind kind, std::string_view name, Span span, Binding* owner);
 
@@ -82,6 +85,14 @@ public:
     /// Reports every let or param whose value needs itself, by way of functions too, and functions whose
     /// result type cannot be found because they call themselves.
     void report_cycles();
+
+    /// A name that stands in `scope` for what is bound at `definition`.
+    struct Found {
+        Span definition;
+        Span span;
+        const Scope* scope;
+    };
+    SymbolIndex index(std::vector<Found> mentions) const;
 
 private:
     static Span definition_span(const Binding& binding);

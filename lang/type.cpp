@@ -105,4 +105,19 @@ std::vector<std::string_view> type_names() {
     return names;
 }
 
+std::vector<std::string_view> members_of(TypeKind kind) {
+    switch (kind) {
+    case TypeKind::vec2:
+        return {"x", "y"};
+    case TypeKind::vec3:
+        return {"x", "y", "z"};
+    case TypeKind::color:
+        return {"r", "g", "b"};
+    case TypeKind::surface:
+        return {"p", "world", "n", "uv"};
+    default:
+        return {};
+    }
+}
+
 } // namespace scc::lang

@@ -61,5 +61,7 @@ Type joined(const Type& a, const Type& b);
 /// The type with this name, if it is one word.
 const TypeKind* named_type(std::string_view name);
 std::vector<std::string_view> type_names();
+/// What may stand behind the dot of a value of this type.
+std::vector<std::string_view> members_of(TypeKind kind);
 
 } // namespace scc::lang

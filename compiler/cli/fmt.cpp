@@ -1,5 +1,4 @@
 #include "compiler/cli/commands.h"
-#include "lang/dump.h"
 #include "lang/format.h"
 #include "lang/parser.h"
 #include "runtime/host/file.h"
@@ -12,7 +11,6 @@
 #include <iterator>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 
 namespace scc::cli {
 
@@ -35,12 +33,6 @@ std::string read_standard_input() {
     return text;
 }
 
-std::string tree_of(const std::string& text) {
-    lang::SourceSet sources;
-    lang::Diagnostics ignored;
-    return lang::dump_ast(*lang::parse_file(sources, sources.add("", text), ignored));
-}
-
 /// The text in the layout of the language; nothing if it has mistakes of syntax, which are printed.
 std::optional<std::string> formatted(const std::string& name, const std::string& text) {
     Loaded loaded;
@@ -50,11 +42,7 @@ std::optional<std::string> formatted(const std::string& name, const std::string&
     if (!report(loaded)) {
         return std::nullopt;
     }
-    std::string result = lang::format(loaded.sources, loaded.tokens, tree);
-    if (tree_of(result) != lang::dump_ast(tree)) {
-        throw std::logic_error(fmt::format("the layout of `{}` would change its meaning", name));
-    }
-    return result;
+    return lang::checked_format(loaded.sources, loaded.tokens, tree);
 }
 
 int format_files(const FmtOptions& options) {

@@ -63,7 +63,8 @@ int main(int argc, char** argv) {
     cli::Run selected;
     for (auto* add :
          {cli::add_check, cli::add_fmt, cli::add_params, cli::add_render, cli::add_build, cli::add_export,
-          cli::add_import, cli::add_validate, cli::add_compare, cli::add_doctor, cli::add_reference}) {
+          cli::add_import, cli::add_validate, cli::add_compare, cli::add_lsp, cli::add_doctor,
+          cli::add_reference}) {
         add(app, selected);
     }
     try {
