@@ -165,9 +165,13 @@ private:
     void meet(const Ray<L>& ray, const Hit<L>& hit, Pack& pack) const {
         Encounter<L>& at = pack.at;
         bool first = true;
-        for_each_primitive(scene_, hit, pack.active, [&](const auto& primitive, const Mask& here) {
+        for_each_primitive(scene_, hit, pack.active, [&](const auto& primitive, const Mask& here,
+                                                         [[maybe_unused]] const auto inverted) {
             Vec3<L> object_point;
-            const Surface<L> surface = surface_of(scene_, primitive, ray, hit.shape, here, object_point);
+            Surface<L> surface = surface_of(scene_, primitive, ray, hit.shape, here, object_point);
+            if constexpr (uses_csg(S::traits)) {
+                surface = inverted ? turned_over(surface) : surface;
+            }
             const Mask back = dot(surface.normal, ray.dir) > 0;
             const Vec3<L> normal = choose(dot(surface.shading_normal, ray.dir) > 0, -surface.shading_normal,
                                           surface.shading_normal);
