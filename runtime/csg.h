@@ -134,7 +134,7 @@ private:
     }
 
     bool gather_leaf(const PrimitiveRef& ref) {
-        Stretch<L> stretch;
+        Stretch<L> stretch{L(0), L(0)};
         visit_member(scene_, ref, [&](const auto& member) {
             stretch = member.primitive.shape.stretch(to_object(member.primitive, ray_));
         });
@@ -146,7 +146,7 @@ private:
         const Mask begun = stretch.near <= ray_.t_min, ended = stretch.far <= ray_.t_min;
         const L ahead = choose(begun, choose(ended, inf, stretch.far), stretch.near);
         workspace_.leaves.push_back(
-            {ref, met & begun & !ended, Mask(false), choose(met, ahead, inf), stretch.far, inf});
+            {ref, Mask(met & begun & !ended), Mask(false), choose(met, ahead, inf), stretch.far, inf});
         workspace_.steps.push_back({CsgOp::member, 0});
         return true;
     }
@@ -183,14 +183,28 @@ private:
         return (1 << 14) * roundoff<L>() * (away + absolute(t));
     }
 
+    /// The error bound is that of the distance along the ray, too: of a far origin much is lost.
     Surface<L> surface_at(const Leaf& leaf, const L& t, const Mask& needed) const {
         Surface<L> surface;
+        const Vec3<L> magnitude = absolute(ray_.org) + absolute(t) * absolute(ray_.dir);
         visit_member(scene_, leaf.member, [&](const auto& member) {
             const ShapeHit<L> hit = hit_at(member.primitive, t, needed);
             Vec3<L> object_point;
             surface = surface_of(scene_, member.primitive, ray_, hit, needed, object_point);
+            surface.error = surface.error + rounding_of(member.primitive, magnitude);
         });
         return surface;
+    }
+    /// What is lost of a point on the ray that is no larger than `magnitude`: as for transform_surface.
+    template <class Shape>
+    static Vec3<L> rounding_of(const Bare<Shape>&, const Vec3<L>& magnitude) {
+        return magnitude * (8 * roundoff<L>());
+    }
+    template <class Shape>
+    static Vec3<L> rounding_of(const Placed<Shape, R>& primitive, const Vec3<L>& magnitude) {
+        const Vec3<L> in_object = transform_magnitude(primitive.object_from_world, magnitude) +
+                                  absolute(lanes<L>(translation_of(primitive.object_from_world)));
+        return (transform_magnitude(primitive.world_from_object, in_object) + magnitude) * (8 * roundoff<L>());
     }
     /// The hit that a member's own test finds at the end of a stretch.
     template <class Primitive>
@@ -267,7 +281,7 @@ private:
         for (const Leaf& leaf : workspace_.leaves) {
             Mask here = open & leaf.changed;
             if (any(here & several)) {
-                here = here & (!several | explains(leaf, was, is));
+                here = here & ((!several) | explains(leaf, was, is));
             }
             take(leaf, here, hit);
             open = open & !here;

@@ -138,13 +138,6 @@ Bounds<typename S::Real> shape_bounds(const S& scene, const Shape& shape) {
         using R = typename S::Real;
         const Bounds<float> box = mesh.node_count == 0 ? Bounds<float>{} : bounds_of(mesh);
         return {lanes<R>(box.min), lanes<R>(box.max)};
-    } else if constexpr (is_csg<Shape>) {
-        using R = typename S::Real;
-        return csg_bounds<R>(scene.csg_nodes, shape.root, [&](const CsgNode& node) {
-            Bounds<R> box;
-            visit_member(scene, node.member, [&](const auto& member) { box = solid_bounds(scene, member.primitive); });
-            return box;
-        });
     } else {
         return shape.bounds();
     }
@@ -152,7 +145,7 @@ Bounds<typename S::Real> shape_bounds(const S& scene, const Shape& shape) {
 
 /// Of a member.
 template <class S, class Shape>
-Bounds<typename S::Real> solid_bounds(const S& scene, const Bare<Shape>& primitive) {
+Bounds<typename S::Real> member_bounds(const S& scene, const Bare<Shape>& primitive) {
     if constexpr (requires { primitive.shape.half_space_bounds(); }) {
         return primitive.shape.half_space_bounds();
     } else {
@@ -160,13 +153,24 @@ Bounds<typename S::Real> solid_bounds(const S& scene, const Bare<Shape>& primiti
     }
 }
 template <class S, class Shape, class R>
-Bounds<R> solid_bounds(const S& scene, const Placed<Shape, R>& primitive) {
+Bounds<R> member_bounds(const S& scene, const Placed<Shape, R>& primitive) {
     if constexpr (requires { primitive.shape.half_space_bounds(); }) {
         const Vec3<R> all{infinity<R>(), infinity<R>(), infinity<R>()};
         return {-all, all};
     } else {
         return transform_bounds(primitive.world_from_object, shape_bounds(scene, primitive.shape));
     }
+}
+
+template <class S>
+Bounds<typename S::Real> solid_bounds(const S& scene, std::uint32_t root) {
+    using R = typename S::Real;
+    return csg_bounds<R>(scene.csg_nodes, root, [&](const CsgNode& node) {
+        Bounds<R> box;
+        visit_member(scene, node.member,
+                     [&](const auto& member) { box = member_bounds(scene, member.primitive); });
+        return box;
+    });
 }
 
 } // namespace detail
@@ -201,11 +205,19 @@ Surface<L> surface_of(const S& scene, const Placed<Shape, R>& primitive, const R
 
 template <class S, class Shape>
 Bounds<typename S::Real> bounds_of(const S& scene, const Bare<Shape>& primitive) {
-    return detail::shape_bounds(scene, primitive.shape);
+    if constexpr (is_csg<Shape>) {
+        return detail::solid_bounds(scene, primitive.shape.root);
+    } else {
+        return detail::shape_bounds(scene, primitive.shape);
+    }
 }
 template <class S, class Shape, class R>
 Bounds<R> bounds_of(const S& scene, const Placed<Shape, R>& primitive) {
-    return transform_bounds(primitive.world_from_object, detail::shape_bounds(scene, primitive.shape));
+    if constexpr (is_csg<Shape>) {
+        return detail::solid_bounds(scene, primitive.shape.root); // solids are bare
+    } else {
+        return transform_bounds(primitive.world_from_object, detail::shape_bounds(scene, primitive.shape));
+    }
 }
 
 } // namespace scc::runtime
