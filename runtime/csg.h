@@ -138,7 +138,8 @@ private:
         visit_member(scene_, ref, [&](const auto& member) {
             stretch = member.primitive.shape.stretch(to_object(member.primitive, ray_));
         });
-        const Mask met = (stretch.near <= ray_.t_max) & (stretch.far >= ray_.t_min);
+        const Mask met = (stretch.near <= stretch.far) & (stretch.near <= ray_.t_max) &
+                         (stretch.far >= ray_.t_min);
         if (none(met)) {
             return false;
         }

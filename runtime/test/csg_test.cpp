@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cmath>
+#include <string>
 
 using namespace scc::runtime;
 using namespace scc::runtime::test;
@@ -66,7 +67,7 @@ TYPED_TEST(SolidScene, FirstHitIsWhereTheSolidBegins) {
     Random<R> random(11);
     const long double blur = std::is_same_v<R, float> ? 3e-4L : 1e-8L;
     int hits = 0, rays = 0, wrong = 0;
-    for (int i = 0; i < 400; ++i) {
+    for (int i = 0; i < 100; ++i) {
         const Solid<R> solid(random, 3);
         for (int k = 0; k < 40; ++k) {
             const Ray<R> ray = ray_at(solid, random);
@@ -248,9 +249,9 @@ TYPED_TEST(SolidScene, HierarchyMeetsTheSame) {
     using L = WidestLane<R>;
     Random<R> random(9);
     for (int i = 0; i < 10; ++i) {
-        Solid<R> solid(random, 3);
+        Solid<R> solid(ball<R>({0, 0, 0}, R(0.2)));
         for (int k = 0; k < 20; ++k) {
-            solid.add(random_node(random, 2));
+            solid.add({CsgOp::intersect, {random_node(random, 2), box<R>({-2, -2, -2}, {2, 2, 2})}});
             solid.scene.add(Bare<Sphere<R>>{{random.vector(2), R(0.3)}, {solid.next_id++, {}}});
         }
         DynamicScene<R> with_hierarchy = solid.scene;

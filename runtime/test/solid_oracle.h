@@ -49,6 +49,7 @@ struct Node {
     std::vector<Node> operands{};
     std::variant<Sphere<R>, Box<R>, Plane<R>, Cylinder<R>, Cone<R>> shape{};
     std::optional<Affine<double>> place{};
+    Affine<long double> object_from_world{}; ///< of the rounded place
 };
 
 template <class R>
@@ -133,7 +134,7 @@ struct Solid {
 private:
     static bool contains(const Node<R>& node, const Wide& p) {
         if (node.op == CsgOp::member) {
-            const Wide q = node.place ? transform_point(inverse(affine_cast<long double>(affine_cast<R>(*node.place))), p) : p;
+            const Wide q = node.place ? transform_point(node.object_from_world, p) : p;
             return std::visit([&](const auto& shape) { return test::contains(shape, q); }, node.shape);
         }
         bool result = contains(node.operands.front(), p);
@@ -161,7 +162,7 @@ private:
         }
     }
 
-    void add_node(const Node<R>& node, bool inverted) {
+    void add_node(Node<R>& node, bool inverted) {
         const std::size_t at = scene.csg_nodes.size();
         scene.csg_nodes.push_back({node.op, 1, {}});
         if (node.op == CsgOp::member) {
@@ -172,7 +173,8 @@ private:
                         return add_member(Bare<Shape>{shape, tag}, kind_of<Shape>(), inverted);
                     }
                     const Affine<R> place = affine_cast<R>(*node.place);
-                    return add_member(Placed<Shape, R>{shape, place, affine_cast<R>(inverse(affine_cast<long double>(place))), tag},
+                    node.object_from_world = inverse(affine_cast<long double>(place));
+                    return add_member(Placed<Shape, R>{shape, place, affine_cast<R>(node.object_from_world), tag},
                                       kind_of<Shape>() + 1, inverted);
                 },
                 node.shape);
