@@ -52,6 +52,9 @@ void for_each_sides(ir::Scene& scene, Visit visit) {
     for (ir::Object& object : scene.objects) {
         visit(object.sides);
     }
+    for (ir::Object& member : scene.members) {
+        visit(member.sides);
+    }
     for (ir::ObjectArray& array : scene.arrays) {
         for (ir::ObjectColumn& column : array.columns) {
             std::for_each(column.sides.begin(), column.sides.end(), visit);
@@ -91,7 +94,7 @@ void drop_functions(ir::Scene& scene) {
     }
 }
 
-/// No array holds meshes.
+/// No array holds meshes, nor does a solid.
 void drop_meshes(ir::Scene& scene) {
     std::vector<bool> used(scene.meshes.size());
     for (const ir::Object& object : scene.objects) {
