@@ -59,9 +59,9 @@ std::string_view rule(const runtime::Csg<double>&) {
 template <class Shape>
 std::string_view gap(const Shape& shape) {
     if constexpr (requires { shape.caps; }) {
-        return shape.caps ? "" : "this tube has no caps";
+        return shape.caps ? "" : "has no caps";
     } else {
-        return runtime::is_solid<Shape> ? "" : "it has no inside";
+        return runtime::is_solid<Shape> ? "" : "has no inside";
     }
 }
 

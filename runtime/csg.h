@@ -138,8 +138,8 @@ private:
         visit_member(scene_, ref, [&](const auto& member) {
             stretch = member.primitive.shape.stretch(to_object(member.primitive, ray_));
         });
-        const Mask met = (stretch.near <= stretch.far) & (stretch.near <= ray_.t_max) &
-                         (stretch.far >= ray_.t_min);
+        const Mask met =
+            (stretch.near <= stretch.far) & (stretch.near <= ray_.t_max) & (stretch.far >= ray_.t_min);
         if (none(met)) {
             return false;
         }
@@ -205,7 +205,8 @@ private:
     static Vec3<L> rounding_of(const Placed<Shape, R>& primitive, const Vec3<L>& magnitude) {
         const Vec3<L> in_object = transform_magnitude(primitive.object_from_world, magnitude) +
                                   absolute(lanes<L>(translation_of(primitive.object_from_world)));
-        return (transform_magnitude(primitive.world_from_object, in_object) + magnitude) * (8 * roundoff<L>());
+        return (transform_magnitude(primitive.world_from_object, in_object) + magnitude) *
+               (8 * roundoff<L>());
     }
     /// The hit that a member's own test finds at the end of a stretch.
     template <class Primitive>
@@ -294,7 +295,8 @@ private:
         }
     }
     Mask explains(const Leaf& one, const Mask& was, const Mask& is) {
-        const Mask alone = evaluate([&](const Leaf& leaf) { return &leaf == &one ? now(leaf) : before(leaf); });
+        const Mask alone =
+            evaluate([&](const Leaf& leaf) { return &leaf == &one ? now(leaf) : before(leaf); });
         const Mask others =
             evaluate([&](const Leaf& leaf) { return &leaf == &one ? before(leaf) : now(leaf); });
         return differ<L>(alone, was) | differ<L>(others, is);

@@ -115,8 +115,7 @@ void any_of_surface_kinds(F&& f) {
 template <class L>
 bool keep_nearest(Ray<L>& ray, Hit<L>& hit, const Hit<L>& found) {
     const L& t = found.shape.t;
-    const MaskOf<L> nearer =
-        (t < ray.t_max) | ((t == ray.t_max) & (t < infinity<L>()) & (found.id < hit.id));
+    const MaskOf<L> nearer = (t < ray.t_max) | ((t == ray.t_max) & (t < infinity<L>()) & (found.id < hit.id));
     if (none(nearer)) {
         return false;
     }

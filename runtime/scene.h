@@ -24,8 +24,8 @@ namespace scc::runtime {
 /// What a scene needs. A kernel compiled for a scene contains nothing else; the generic renderer uses
 /// `everything`.
 struct SceneTraits {
-    std::uint32_t bare_shapes = 0;   ///< bit per row of Shapes: present without a transform
-    std::uint32_t placed_shapes = 0; ///< bit per row of Shapes: present with a transform
+    std::uint32_t bare_shapes = 0;    ///< bit per row of Shapes: present without a transform
+    std::uint32_t placed_shapes = 0;  ///< bit per row of Shapes: present with a transform
     std::uint32_t bare_members = 0;   ///< the same for members of solids
     std::uint32_t placed_members = 0; ///< the same for members of solids
     bool point_lights = false;
@@ -46,8 +46,8 @@ struct SceneTraits {
     friend constexpr bool operator==(const SceneTraits&, const SceneTraits&) = default;
 };
 
-inline constexpr SceneTraits everything{~0U,  ~0U,  ~0U,  ~0U,  true, true, true, true, true, true,
-                                        true, true, true, true, true, true, true, true};
+inline constexpr SceneTraits everything{~0U,  ~0U,  ~0U,  ~0U,  true, true, true, true, true,
+                                        true, true, true, true, true, true, true, true, true};
 
 /// What every shape in a scene carries.
 struct Tag {

@@ -246,10 +246,10 @@ void Emitter<R>::traits() {
     for (const ir::TraitFlag& flag : ir::trait_flags) {
         flags += t.*flag.member ? fmt::format(", .{} = true", flag.name) : "";
     }
-    const std::string members =
-        !runtime::uses_csg(t) ? ""
-                              : fmt::format(", .bare_members = {:#x}, .placed_members = {:#x}",
-                                            t.bare_members, t.placed_members);
+    const std::string members = !runtime::uses_csg(t)
+                                    ? ""
+                                    : fmt::format(", .bare_members = {:#x}, .placed_members = {:#x}",
+                                                  t.bare_members, t.placed_members);
     out_.line("static constexpr SceneTraits traits{{.bare_shapes = {:#x}, .placed_shapes = {:#x}{}{}}};",
               t.bare_shapes, t.placed_shapes, members, flags);
 }

@@ -127,13 +127,13 @@ void for_each_primitive(const ir::Scene& scene, Visit visit) {
             },
             member.shape);
     };
-    ir::for_each_shape(scene, [&](const auto& source, const runtime::Affine<double>& place,
-                                  const runtime::Sides& sides) {
-        visit_primitive<R>(source, place, {id++, sides}, visit);
-        if constexpr (requires { source.root; }) {
-            ir::for_each_csg_node(scene, source, visit_member);
-        }
-    });
+    ir::for_each_shape(
+        scene, [&](const auto& source, const runtime::Affine<double>& place, const runtime::Sides& sides) {
+            visit_primitive<R>(source, place, {id++, sides}, visit);
+            if constexpr (requires { source.root; }) {
+                ir::for_each_csg_node(scene, source, visit_member);
+            }
+        });
 }
 
 /// The trees of the solids, whose members are where for_each_primitive puts them.

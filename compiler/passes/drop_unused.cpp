@@ -64,7 +64,8 @@ void for_each_sides(ir::Scene& scene, Visit visit) {
 
 void drop_materials(ir::Scene& scene) {
     std::vector<std::uint8_t> is_used(scene.materials.size()); // bytes: millions of objects write here
-    for_each_sides(scene, [&](const runtime::Sides& sides) { is_used[sides.front] = is_used[sides.back] = 1; });
+    for_each_sides(scene,
+                   [&](const runtime::Sides& sides) { is_used[sides.front] = is_used[sides.back] = 1; });
     const std::vector<bool> used(is_used.begin(), is_used.end());
     if (std::find(used.begin(), used.end(), false) == used.end()) {
         return;

@@ -17,8 +17,7 @@ struct TypeList {};
 
 /// The one list of shapes. A new shape is its header and a row here.
 template <class R>
-using Primitives =
-    TypeList<Sphere<R>, Box<R>, Plane<R>, Cylinder<R>, Cone<R>, Disc<R>, Triangle<R>, Mesh<R>>;
+using Primitives = TypeList<Sphere<R>, Box<R>, Plane<R>, Cylinder<R>, Cone<R>, Disc<R>, Triangle<R>, Mesh<R>>;
 
 template <class List, class Last>
 struct Appended;

@@ -23,10 +23,13 @@ TYPED_TEST_SUITE(SolidScene, Reals);
 /// What is wrong with a hit, or with finding none, as far as points of the ray tell.
 template <class R>
 std::string problem(const Solid<R>& solid, const Ray<R>& ray, const Hit<R>& hit, long double blur) {
-    const auto at = [&](long double t) { return lanes<long double>(ray.org) + lanes<long double>(ray.dir) * t; };
+    const auto at = [&](long double t) {
+        return lanes<long double>(ray.org) + lanes<long double>(ray.dir) * t;
+    };
     const bool starts_inside = solid.contains(at(0));
     const bool met = is_hit(hit);
-    const long double end = met ? static_cast<long double>(hit.shape.t) : 30 / length(lanes<long double>(ray.dir));
+    const long double end =
+        met ? static_cast<long double>(hit.shape.t) : 30 / length(lanes<long double>(ray.dir));
     constexpr int samples = 400;
     for (int i = 1; i < samples; ++i) {
         const long double t = (end - blur) * i / samples;
@@ -179,7 +182,8 @@ TYPED_TEST(SolidScene, FlushCutLeavesNoFilm) {
     Random<R> random(5);
     for (int i = 0; i < 20000; ++i) {
         const Vec3<R> through{random.number(-0.2, 0.2), random.number(-0.2, 0.2), R(1.1)};
-        const Vec3<R> org = through + Vec3<R>{random.number(-0.3, 0.3), random.number(-0.3, 0.3), 1} * random.number(1, 50);
+        const Vec3<R> org =
+            through + Vec3<R>{random.number(-0.3, 0.3), random.number(-0.3, 0.3), 1} * random.number(1, 50);
         const Ray<R> ray{org, (through - org) * random.number(0.01, 2)};
         const Hit<R> hit = closest_hit(solid.scene, ray);
         const R z = is_hit(hit) ? (ray.org + ray.dir * hit.shape.t).z : R(0);
@@ -199,7 +203,10 @@ TYPED_TEST(SolidScene, CommonFacesBelongToTheFirstOperand) {
 
 TYPED_TEST(SolidScene, SurfacesBetweenUnitedSolidsAreNotSeen) {
     using R = TypeParam;
-    const Solid<R> solid({CsgOp::unite, {box<R>({-1, -1, -1}, {1, 1, 0}), box<R>({-1, -1, 0}, {1, 1, 1}), ball<R>({0, 0, 0}, R(0.9))}, {}});
+    const Solid<R> solid(
+        {CsgOp::unite,
+         {box<R>({-1, -1, -1}, {1, 1, 0}), box<R>({-1, -1, 0}, {1, 1, 1}), ball<R>({0, 0, 0}, R(0.9))},
+         {}});
     EXPECT_EQ(along_z<R>(solid, R(0.1), R(0.2)).shape.t, R(9));
     // From within, the outside is the first that is met.
     EXPECT_EQ(along_z<R>(solid, R(0.1), R(0.2), R(0.5)).shape.t, R(1.5));
@@ -210,7 +217,7 @@ TYPED_TEST(SolidScene, SubtractedSubtractionFacesOutwards) {
     // A - (B - C): a box with a spherical hollow, in which there stands a smaller ball.
     const Node<R> inner{CsgOp::subtract, {ball<R>({0, 0, 1}, R(0.8)), ball<R>({0, 0, 1}, R(0.4))}, {}};
     const Solid<R> solid({CsgOp::subtract, {box<R>({-1, -1, -1}, {1, 1, 1}), inner}, {}});
-    EXPECT_NEAR(static_cast<double>(normal_along_z<R>(solid, 0, 0).z), 1, 1e-6);   // the box's face
+    EXPECT_NEAR(static_cast<double>(normal_along_z<R>(solid, 0, 0).z), 1, 1e-6); // the box's face
     const Vec3<R> hollow = normal_along_z<R>(solid, R(0.6), 0);
     EXPECT_LT(hollow.x, 0); // towards the hollow's centre
     EXPECT_GT(hollow.z, 0);

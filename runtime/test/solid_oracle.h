@@ -29,7 +29,8 @@ bool contains(const Plane<R>& s, const Wide& p) {
     return dot(lanes<long double>(s.normal), p) <= static_cast<long double>(s.offset);
 }
 template <class R>
-bool is_in_cone(const Vec3<R>& from, const Vec3<R>& to, long double at_from, long double at_to, const Wide& p) {
+bool is_in_cone(const Vec3<R>& from, const Vec3<R>& to, long double at_from, long double at_to,
+                const Wide& p) {
     const Wide axis = lanes<long double>(to) - lanes<long double>(from), f = p - lanes<long double>(from);
     const long double part = dot(f, axis) / dot(axis, axis);
     return part >= 0 && part <= 1 && length(f - axis * part) <= at_from + part * (at_to - at_from);
@@ -174,8 +175,9 @@ private:
                     }
                     const Affine<R> place = affine_cast<R>(*node.place);
                     node.object_from_world = inverse(affine_cast<long double>(place));
-                    return add_member(Placed<Shape, R>{shape, place, affine_cast<R>(node.object_from_world), tag},
-                                      kind_of<Shape>() + 1, inverted);
+                    return add_member(
+                        Placed<Shape, R>{shape, place, affine_cast<R>(node.object_from_world), tag},
+                        kind_of<Shape>() + 1, inverted);
                 },
                 node.shape);
         }
