@@ -7,8 +7,9 @@
 
 namespace scc::compiler {
 
-/// Where a scene may read files from: its own folder and those of --asset-path. A name that the command line
-/// itself gave (`-D model=...`) may also be a path from the working directory, wherever it leads.
+/// Where a scene and its imports may read files from: the scene's folder and those of --asset-path. A name
+/// that the command line itself gave (`-D model=...`) may also be a path from the working directory, wherever
+/// it leads.
 struct AssetPolicy {
     std::filesystem::path scene_folder;
     std::vector<std::filesystem::path> asset_paths;
@@ -22,8 +23,9 @@ struct Asset {
     std::filesystem::path path; ///< of the file, if found
 };
 
-/// Looks the name up in the scene's folder, then in the asset paths, then, if the user named it, from the
-/// working directory. Symbolic links are followed before the folder is checked.
-Asset find_asset(const AssetPolicy& policy, const std::string& name);
+/// Looks the name up in `folder`, that of the file in which it is written, then in the scene's folder, in the
+/// asset paths and, if the user named it, from the working directory. Symbolic links are followed before the
+/// folder is checked, which is one of the scene's and the asset paths.
+Asset find_asset(const AssetPolicy& policy, const std::filesystem::path& folder, const std::string& name);
 
 } // namespace scc::compiler

@@ -122,12 +122,14 @@ private:
                    const Number& number);
     std::optional<ir::Shape> mesh_shape(const Thing& thing);
     std::optional<std::uint32_t> load_mesh(const Thing& thing, const std::string& file, MeshNormals normals);
+    const std::filesystem::path& folder_of(const Thing& mesh) const;
 
     const LowerOptions& options_;
     ir::Scene& scene_;
     lang::Diagnostics& diagnostics_;
     MaterialTable materials_;
-    std::map<std::pair<std::string, MeshNormals>, std::optional<std::uint32_t>> meshes_;
+    using MeshKey = std::tuple<std::filesystem::path, std::string, MeshNormals>; ///< folder, name
+    std::map<MeshKey, std::optional<std::uint32_t>> meshes_;
     std::set<std::string> mesh_names_;
     std::optional<host::Cache> cache_; ///< once a mesh asks for it
     std::set<std::string> paths_;
@@ -216,7 +218,7 @@ std::optional<ir::Shape> ObjectLowering::mesh_shape(const Thing& thing) {
         {"file", MeshNormals::file}, {"smooth", MeshNormals::smooth}, {"flat", MeshNormals::flat}};
     const std::string file = to_text(*thing.get("file"));
     const MeshNormals normals = kinds.at(to_text(*thing.get("normals")));
-    auto [place, is_new] = meshes_.try_emplace({file, normals});
+    auto [place, is_new] = meshes_.try_emplace({folder_of(thing), file, normals});
     if (is_new) {
         place->second = load_mesh(thing, file, normals);
     }
@@ -226,11 +228,17 @@ std::optional<ir::Shape> ObjectLowering::mesh_shape(const Thing& thing) {
     return ir::Shape{runtime::Mesh<double>{*place->second}};
 }
 
+/// That of the file in which the mesh is written.
+const std::filesystem::path& ObjectLowering::folder_of(const Thing& mesh) const {
+    const auto found = options_.import_folders.find(place_of(mesh, "file").file);
+    return found == options_.import_folders.end() ? options_.assets.scene_folder : found->second;
+}
+
 std::optional<std::uint32_t> ObjectLowering::load_mesh(const Thing& thing, const std::string& file,
                                                        MeshNormals normals) {
     const lang::Span place = place_of(thing, "file");
     const std::string quoted = fmt::format("`{}`", file);
-    const Asset asset = find_asset(options_.assets, file);
+    const Asset asset = find_asset(options_.assets, folder_of(thing), file);
     if (asset.status == AssetStatus::outside) {
         diagnostics_.report(Diag::asset_outside, place, quoted);
         return std::nullopt;

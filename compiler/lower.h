@@ -5,6 +5,8 @@
 #include "lang/check.h"
 #include "lang/diagnostic.h"
 
+#include <filesystem>
+#include <map>
 #include <string>
 
 namespace scc::compiler {
@@ -12,6 +14,8 @@ namespace scc::compiler {
 struct LowerOptions {
     std::string name; ///< of the scene: the file's, without folder and extension
     AssetPolicy assets;
+    /// Of imported files, whose assets lie beside them.
+    std::map<lang::FileId, std::filesystem::path> import_folders;
     std::string camera;       ///< --camera; empty: the scene's choice
     bool keep_meshes = false; ///< take them from the user's cache and leave them there
 };

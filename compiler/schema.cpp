@@ -433,6 +433,7 @@ lang::Schema make_schema() {
         schema.constructors.push_back(make());
     }
     add_unsupported(schema.constructors);
+    schema.group = "group";
     return schema;
 }
 

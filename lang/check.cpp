@@ -3,6 +3,7 @@
 #include "lang/checker.h"
 #include "lang/evaluator.h"
 #include "lang/frame.h"
+#include "lang/imports.h"
 
 #include <cmath>
 
@@ -16,22 +17,40 @@ struct Storage {
     CapturedFrames captured;
 };
 
+FramePtr frame_of(const CheckedFile& file, const FramePtr& outer, Storage& storage) {
+    FramePtr frame = std::make_shared<Frame>(outer, file.body.cells, &storage.captured, 0);
+    for (const auto& imported : file.imports) {
+        imported->globals = frame_of(imported->code, frame, storage);
+    }
+    return frame;
+}
+
 } // namespace
 
 Module check(std::shared_ptr<const ast::File> file, const Schema& schema,
              const std::vector<Definition>& definitions, SourceSet& sources, Diagnostics& diagnostics,
-             const EvaluationLimits& limits) {
+             const EvaluationLimits& limits, Importer* importer) {
+    ImportSession session;
+    session.importer = importer;
+    const FileId id = file->file;
+    if (importer) {
+        const std::string& path = sources.file(id).path();
+        session.open.push_back({importer->identity(path), path, {}});
+    }
     const auto storage = std::make_shared<Storage>();
     storage->file = std::move(file);
-    storage->code = Checker(schema, sources, diagnostics, limits).run(*storage->file, definitions);
+    storage->code = Checker(schema, sources, diagnostics, limits, session).run(*storage->file, definitions);
     Module module;
     module.storage = storage;
     RunReport report;
     Evaluator evaluator(limits, report);
-    const BodyCode& body = storage->code.body;
-    const FramePtr globals = std::make_shared<Frame>(nullptr, body.cells, &storage->captured, 0);
-    module.params = evaluator.params(storage->code.params, globals);
-    module.items = evaluator.run(body, globals);
+    const FramePtr globals = frame_of(storage->code, nullptr, *storage);
+    for (const auto& [identity, tree] : session.trees) {
+        module.imports.push_back(tree.file);
+    }
+    module.params = evaluator.params(storage->code, globals);
+    evaluator.imports(storage->code);
+    module.items = evaluator.run(storage->code.body, globals);
     module.prints = evaluator.take_prints();
     report.flush(diagnostics);
     return module;

@@ -2,6 +2,7 @@
 
 #include "lang/ast.h"
 #include "lang/diagnostic.h"
+#include "lang/importer.h"
 #include "lang/schema.h"
 #include "lang/source.h"
 #include "lang/value.h"
@@ -38,6 +39,8 @@ struct EvaluationLimits {
     std::uint32_t call_depth = 500;
     std::uint64_t list_length = 20'000'000;
     std::uint64_t string_length = 1'000'000;
+    std::size_t imports = 1000;
+    std::size_t import_depth = 32;
     std::uint64_t recorded_rounds =
         32; ///< from here on it is tried to record a loop's body and to run all rounds at once
 };
@@ -46,17 +49,19 @@ struct EvaluationLimits {
 /// alive that its closures refer to.
 struct Module {
     std::vector<ThingPtr> items;
-    std::vector<Param> params;
+    std::vector<Param> params;       ///< those of imports too, as `name.param`
+    std::vector<FileId> imports;     ///< every file that was imported, once
     std::vector<std::string> prints; ///< what `print` said, in order
     std::shared_ptr<const void> storage;
 };
 
 /// Types every expression of the file against the schema and evaluates what is right, reporting all errors.
 /// After errors, those of the parser too, the module holds the things that have no mistake in them. A `-D`
-/// that names no `param` is reported at no place (Span{}) as unknown-param.
+/// that names no `param` is reported at no place (Span{}) as unknown-param. Without an importer nothing can
+/// be imported.
 Module check(std::shared_ptr<const ast::File> file, const Schema& schema,
              const std::vector<Definition>& definitions, SourceSet& sources, Diagnostics& diagnostics,
-             const EvaluationLimits& limits = {});
+             const EvaluationLimits& limits = {}, Importer* importer = nullptr);
 
 /// Runs a per-point function on an unknown surface and hands every operation to the builder. Returns one
 /// scalar for a number, three for a colour or vector; constant where the function does not depend on the

@@ -47,12 +47,21 @@ bool is_sum_type(TypeKind kind) {
 
 Typed Checker::check(const ast::Call& node, const ast::Expr& expr, const Place& place) {
     const auto* name = node.callee ? std::get_if<ast::NameRef>(&node.callee->node) : nullptr;
+    const auto* member = node.callee ? std::get_if<ast::Member>(&node.callee->node) : nullptr;
+    Binding* import = member ? import_named(*member->object, place) : nullptr;
+    if (import) {
+        const Binding* function = imported_binding(*import, member->member, place);
+        if (function && function->kind == Binding::Kind::function) {
+            return function_call(node, *function, imported_value(*import, *function, node.callee->span),
+                                 expr.span, place);
+        }
+    }
     if (!name) {
         return value_call(node, expr.span, place);
     }
     Binding* binding = Names::find(place.scope, name->name);
     if (binding && binding->kind == Binding::Kind::function) {
-        return function_call(node, *binding, expr.span, place);
+        return function_call(node, *binding, reference(*binding, node.callee->span, place), expr.span, place);
     }
     return binding ? value_call(node, expr.span, place) : named_call(node, name->name, expr.span, place);
 }
@@ -114,8 +123,8 @@ bool Checker::argument_count(std::size_t wanted, std::string_view subject, const
 }
 
 /// A function known by name: arguments may be named, and those with defaults left out.
-Typed Checker::function_call(const ast::Call& node, Binding& binding, Span span, const Place& place) {
-    Typed callee = reference(binding, node.callee->span, place);
+Typed Checker::function_call(const ast::Call& node, const Binding& binding, Typed callee, Span span,
+                             const Place& place) {
     if (!callee.code) {
         for (const ast::Argument& argument : node.arguments) {
             expression(argument.value, place.unnamed());

@@ -6,9 +6,20 @@ namespace scc::lang {
 Typed Checker::reference(Binding& binding, Span span, const Place& place) {
     Names::note_use(binding, span, place.owner);
     ensure(binding);
-    const std::uint32_t depth = Names::depth(place.scope, binding.scope);
+    if (binding.kind == Binding::Kind::import) {
+        if (binding.imported) {
+            diagnostics_.report(Diag::bare_import, span, binding.name)
+                .suggest(span, std::string(binding.name) + ".scene");
+        }
+        return {};
+    }
+    return value_of(binding, Names::depth(place.scope, binding.scope), span);
+}
+
+/// The code stands `depth` frames within that of the binding.
+Typed Checker::value_of(const Binding& binding, std::uint32_t depth, Span span) {
     const bool has_gaps = binding.function && binding.function->has_gaps;
-    if (binding.kind == Binding::Kind::alias || !binding.type_known || binding.is_spoilt || has_gaps) {
+    if (binding.kind == Binding::Kind::misplaced || !binding.type_known || binding.is_spoilt || has_gaps) {
         return {};
     }
     if (binding.kind == Binding::Kind::function) {
@@ -38,7 +49,8 @@ void Checker::ensure(Binding& binding) {
         }
         break;
     case Binding::Kind::variable:
-    case Binding::Kind::alias:
+    case Binding::Kind::import:
+    case Binding::Kind::misplaced:
         binding.type_known = true;
         break;
     }

@@ -1,44 +1,14 @@
 #include "lang/checker.h"
 #include "lang/components.h"
+#include "lang/units.h"
 #include "lang/wording.h"
 
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 namespace scc::lang {
 namespace {
-
-/// A length unit as an exact fraction of a metre.
-struct Fraction {
-    std::int64_t over, under;
-};
-
-Fraction metres(ast::Unit unit) {
-    switch (unit) {
-    case ast::Unit::mm:
-        return {1, 1000};
-    case ast::Unit::cm:
-        return {1, 100};
-    case ast::Unit::km:
-        return {1000, 1};
-    case ast::Unit::inch:
-        return {127, 5000};
-    default:
-        return {1, 1};
-    }
-}
-
-/// Rounded once where the factor is a power of ten, so that 25mm is the same number as 0.025.
-double in_world_units(double value, ast::Unit unit, ast::Unit world) {
-    const Fraction from = metres(unit);
-    const Fraction to = metres(world);
-    const std::int64_t over = from.over * to.under;
-    const std::int64_t under = from.under * to.over;
-    const std::int64_t common = std::gcd(over, under);
-    return value * static_cast<double>(over / common) / static_cast<double>(under / common);
-}
 
 double decode_srgb(std::uint32_t byte) {
     const double encoded = byte / 255.0;
@@ -272,6 +242,9 @@ Typed Checker::check(const ast::Binary& node, const ast::Expr& expr, const Place
 }
 
 Typed Checker::check(const ast::Member& node, const ast::Expr& expr, const Place& place) {
+    if (Binding* import = node.object ? import_named(*node.object, place) : nullptr) {
+        return imported_member(*import, node.member, expr.span, place);
+    }
     Typed object = expression(node.object, place.unnamed());
     if (object.type.kind == TypeKind::error) {
         return {};
@@ -290,10 +263,18 @@ Typed Checker::check(const ast::Member& node, const ast::Expr& expr, const Place
         }
         return {TypeKind::vec3, make_code(code::SurfaceInput{std::move(object.code), members[i]}, expr.span)};
     }
-    const auto best = nearest(node.member.text, members);
-    diagnostics_.report(Diag::unknown_member, node.member.span, described(object.type), node.member.text,
-                        did_you_mean(best));
+    unknown_member(described(object.type), node.member, members);
     return {};
+}
+
+void Checker::unknown_member(std::string_view object, const ast::Name& member,
+                             const std::vector<std::string_view>& members) {
+    const auto best = nearest(member.text, members);
+    Diagnostic& diagnostic =
+        diagnostics_.report(Diag::unknown_member, member.span, object, member.text, did_you_mean(best));
+    if (best) {
+        diagnostic.suggest(member.span, std::string(*best));
+    }
 }
 
 Typed Checker::check(const ast::Index& node, const ast::Expr& expr, const Place& place) {

@@ -1,4 +1,4 @@
-#include "lang/checker.h"
+#include "lang/imports.h"
 #include "lang/wording.h"
 
 namespace scc::lang {
@@ -41,6 +41,7 @@ CheckedFile Checker::run(const ast::File& file, const std::vector<Definition>& g
     find_unit(file);
     CheckedFile checked;
     Scope& scope = names_.add_scope(nullptr);
+    file_scope_ = &scope;
     const Place place{&scope, nullptr, {}};
     check_definitions(declare(file.items, place, true));
     Fields fields;
@@ -53,12 +54,18 @@ CheckedFile Checker::run(const ast::File& file, const std::vector<Definition>& g
             checked.params.push_back(param_code(*binding));
         }
     }
-    definitions(given, scope, checked.params);
     names_.report_cycles();
+    if (is_imported_) {
+        Names::export_all(scope);
+    }
     if (unused_is_known_) { // a misspelt use would leave its name unused
         names_.warn_unused([this](std::string_view name) { return is_lost(name); });
     }
     close(scope, checked.body.cells);
+    checked.imports = std::move(imports_);
+    for (const Definition& definition : given) {
+        this->definition(definition, definition.name, checked);
+    }
     checked.functions = std::move(functions_);
     checked.given = std::move(given_);
     checked.expanded = std::move(expanded_);
@@ -92,9 +99,12 @@ std::vector<Binding*> Checker::declare(const std::vector<ast::Item>& items, cons
             binding.function_code->name = binding.name;
             binding.function_code->span = binding.span;
         } else if (const auto* param = std::get_if<ast::Param>(&item.node)) {
-            add(at_top ? Binding::Kind::param : Binding::Kind::alias, param->name)->param = param;
+            add(at_top ? Binding::Kind::param : Binding::Kind::misplaced, param->name)->param = param;
         } else if (const auto* import = std::get_if<ast::Import>(&item.node)) {
-            add(Binding::Kind::alias, import->alias);
+            Binding& binding = *add(at_top ? Binding::Kind::import : Binding::Kind::misplaced, import->alias);
+            if (at_top) {
+                import_file(*import, binding);
+            }
         }
     }
     return bindings;
@@ -152,19 +162,6 @@ Checker::Around Checker::inside(const ast::Body& body, const Around& around) {
     Around within = around;
     within.is_open = around.is_open || body.is_open;
     return within;
-}
-
-void Checker::item(const ast::Import& item, Span span, const Into& into) {
-    if (!into.around.at_top) {
-        misplaced(span, "an `import`", into.around);
-        return;
-    }
-    if (!std::holds_alternative<ast::ErrorExpr>(item.path->node)) {
-        not_supported(span, "import");
-    }
-    if (item.with) { // its values use names of this file
-        unknown_body(*item.with, into.place);
-    }
 }
 
 void Checker::misplaced(Span span, std::string_view what, const Around& around) {

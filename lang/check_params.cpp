@@ -1,17 +1,10 @@
-#include "lang/checker.h"
+#include "lang/imports.h"
 #include "lang/parser.h"
+#include "lang/units.h"
 #include "lang/wording.h"
-
-#include <array>
 
 namespace scc::lang {
 namespace {
-
-constexpr std::array units{
-    std::pair{std::string_view("mm"), ast::Unit::mm},     std::pair{std::string_view("cm"), ast::Unit::cm},
-    std::pair{std::string_view("m"), ast::Unit::m},       std::pair{std::string_view("km"), ast::Unit::km},
-    std::pair{std::string_view("inch"), ast::Unit::inch},
-};
 
 bool can_be_param(TypeKind kind) {
     switch (kind) {
@@ -58,9 +51,7 @@ void Checker::find_unit(const ast::File& file) {
             continue; // reported with the field
         }
         unit_fields_.push_back(unit);
-        for (const auto& [word, value] : units) {
-            world_unit_ = word == name->value ? value : world_unit_;
-        }
+        world_unit_ = length_unit(name->value).value_or(world_unit_);
     }
 }
 
@@ -114,28 +105,38 @@ void Checker::param_range(const ast::Param& item, const Type& type, const Place&
     code.end = std::move(end.code);
 }
 
-void Checker::definitions(const std::vector<Definition>& definitions, const Scope& scope,
-                          std::vector<ParamCode>& params) {
-    for (const Definition& definition : definitions) {
-        ParamCode* found = nullptr;
-        std::vector<std::string_view> names;
-        for (ParamCode& param : params) {
-            found = param.name == definition.name ? &param : found;
-            names.push_back(param.name);
+/// `name` is what is left of the definition's when the imports before it are taken off.
+void Checker::definition(const Definition& definition, std::string_view name, CheckedFile& file) {
+    const std::size_t dot = name.find('.');
+    std::vector<std::string> names;
+    for (const auto& imported : file.imports) {
+        if (dot != std::string_view::npos && imported->name == name.substr(0, dot)) {
+            return this->definition(definition, name.substr(dot + 1), imported->code);
         }
-        if (!found && is_lost(definition.name)) {
-            continue;
+        for (const ParamCode& param : imported->code.params) {
+            names.push_back(fmt::format("{}.{}", imported->name, param.name));
         }
-        if (!found) {
-            diagnostics_.report(Diag::unknown_param, Span{}, definition.name,
-                                did_you_mean(nearest(definition.name, names)));
-            continue;
+    }
+    for (ParamCode& param : file.params) {
+        if (param.name == name) {
+            return set_param(file, param, given_value(definition, param));
         }
-        CodePtr value = given_value(definition, *found);
-        std::swap(scope.cells[found->cell]->code, value);
-        if (!found->default_value) { // else the value of an earlier -D is dropped
-            found->default_value = std::move(value);
-        }
+        names.emplace_back(param.name);
+    }
+    if (is_lost(name) || (import_failed_ && dot != std::string_view::npos)) {
+        return;
+    }
+    const auto best = nearest(name, {names.begin(), names.end()});
+    const std::string_view before(definition.name.data(), definition.name.size() - name.size());
+    diagnostics_.report(Diag::unknown_param, Span{}, definition.name,
+                        best ? did_you_mean(fmt::format("{}{}", before, *best)) : "");
+}
+
+/// The value in force; of earlier ones, the default is kept.
+void Checker::set_param(CheckedFile& file, ParamCode& param, CodePtr value) {
+    std::swap(file.body.cells[param.cell], value);
+    if (!param.default_value) {
+        param.default_value = std::move(value);
     }
 }
 

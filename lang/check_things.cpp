@@ -8,7 +8,7 @@ namespace {
 
 bool is_scene_item(TypeKind kind) {
     return kind == TypeKind::shape || kind == TypeKind::light || kind == TypeKind::camera ||
-           kind == TypeKind::setting;
+           kind == TypeKind::setting || kind == TypeKind::scene;
 }
 
 const Type& innermost(const Type& type) {
@@ -173,7 +173,8 @@ bool Checker::child_fits(const Type& type, const Around& around, Span span) {
     if (!around.thing) {
         return false;
     }
-    const bool fits_here = around.thing->takes_children && item.kind == TypeKind::shape;
+    const bool holds_shapes = item.kind == TypeKind::shape || item.kind == TypeKind::scene;
+    const bool fits_here = around.thing->takes_children && holds_shapes;
     *around.is_sound = *around.is_sound && fits_here;
     if (!fits_here) {
         diagnostics_.report(Diag::unexpected_item, span, in_code(around.thing->name),

@@ -21,8 +21,18 @@
 
 namespace scc::lang {
 
+struct ImportSession;
+struct ImportedFile;
+struct ImportedNames;
+
 /// What the static pass makes of a file; complete only if it reported no error.
 struct CheckedFile {
+    CheckedFile();
+    CheckedFile(CheckedFile&&) noexcept;
+    CheckedFile& operator=(CheckedFile&&) noexcept;
+    ~CheckedFile();
+
+    std::vector<std::unique_ptr<ImportedFile>> imports;
     BodyCode body;
     std::vector<ParamCode> params;
     std::deque<FunctionCode> functions;
@@ -51,9 +61,8 @@ struct Place {
 class Checker {
 public:
     Checker(const Schema& schema, SourceSet& sources, Diagnostics& diagnostics,
-            const EvaluationLimits& limits)
-        : schema_(schema), sources_(sources), diagnostics_(diagnostics), limits_(limits),
-          names_(diagnostics) {}
+            const EvaluationLimits& limits, ImportSession& session);
+    ~Checker();
 
     CheckedFile run(const ast::File& file, const std::vector<Definition>& definitions);
 
@@ -116,6 +125,21 @@ private:
     void misplaced(Span span, std::string_view what, const Around& around);
     void close(Scope& scope, std::vector<CodePtr>& cells);
 
+    // check_imports.cpp
+    struct Importing {
+        const Checker& checker;
+    };
+    explicit Checker(Importing importing);
+    void import_file(const ast::Import& item, Binding& binding);
+    const ast::File* open_import(const ast::Import& item, ImportedFile& file);
+    void report_import_cycle(std::size_t first, Span span);
+    void given_param(const ast::Field& item, Binding& binding, const Place& place);
+    /// The import that the expression names, if it does.
+    static Binding* import_named(const ast::Expr& expr, const Place& place);
+    Binding* imported_binding(Binding& import, const ast::Name& name, const Place& place);
+    Typed imported_member(Binding& import, const ast::Name& name, Span span, const Place& place);
+    Typed imported_value(const Binding& import, const Binding& binding, Span span);
+
     // check_things.cpp
     Typed check(const ast::Construct& node, const ast::Expr& expr, const Place& place);
     void field_value(const ast::Field& item, const Field& row, const Into& into);
@@ -131,6 +155,7 @@ private:
     void ensure_signature(Binding& binding);
     void ensure_function(Binding& binding);
     Typed reference(Binding& binding, Span span, const Place& place);
+    Typed value_of(const Binding& binding, std::uint32_t depth, Span span);
     Typed check(const ast::Lambda& node, const ast::Expr& expr, const Place& place);
     std::vector<Type> formal_types(const std::vector<ast::Formal>& formals);
     void defaults(const std::vector<ast::Formal>& formals, const std::vector<Type>& types, const Place& place,
@@ -144,8 +169,8 @@ private:
     void param(Binding& binding);
     ParamCode param_code(Binding& binding);
     void param_range(const ast::Param& item, const Type& type, const Place& place, ParamCode& code);
-    void definitions(const std::vector<Definition>& definitions, const Scope& scope,
-                     std::vector<ParamCode>& params);
+    void definition(const Definition& definition, std::string_view name, CheckedFile& file);
+    static void set_param(CheckedFile& file, ParamCode& param, CodePtr value);
     CodePtr given_value(const Definition& definition, const ParamCode& param);
     void find_unit(const ast::File& file);
 
@@ -165,13 +190,16 @@ private:
     Typed check(const ast::Binary& node, const ast::Expr& expr, const Place& place);
     Typed check(const ast::Member& node, const ast::Expr& expr, const Place& place);
     Typed check(const ast::Index& node, const ast::Expr& expr, const Place& place);
+    void unknown_member(std::string_view object, const ast::Name& member,
+                        const std::vector<std::string_view>& members);
     Typed unknown_name(const ast::NameRef& node, Span span, const Place& place);
     Type element_of(const Type& range, Span span);
 
     // check_calls.cpp
     Typed check(const ast::Call& node, const ast::Expr& expr, const Place& place);
     Typed named_call(const ast::Call& node, std::string_view name, Span span, const Place& place);
-    Typed function_call(const ast::Call& node, Binding& binding, Span span, const Place& place);
+    Typed function_call(const ast::Call& node, const Binding& binding, Typed callee, Span span,
+                        const Place& place);
     Typed value_call(const ast::Call& node, Span span, const Place& place);
     Typed builtin_call(const ast::Call& node, const Builtin& builtin, Span span, const Place& place);
     Typed list_call(const ast::Call& node, std::string_view name, Span span, const Place& place);
@@ -201,7 +229,13 @@ private:
     SourceSet& sources_;
     Diagnostics& diagnostics_;
     EvaluationLimits limits_;
+    ImportSession& session_;
     Names names_;
+    Scope* file_scope_ = nullptr;
+    bool is_imported_ = false;
+    std::vector<std::unique_ptr<ImportedFile>> imports_;
+    std::vector<std::unique_ptr<ImportedNames>> imported_;
+    bool import_failed_ = false;
     std::deque<FunctionCode> functions_;
     std::deque<ast::ExprPtr> given_;
     std::deque<ast::File> expanded_;

@@ -21,6 +21,7 @@ struct Code;
 struct ItemCode;
 struct FunctionCode;
 struct Overload;
+struct ImportedFile;
 using CodePtr = std::unique_ptr<const Code>;
 
 struct BodyCode {
@@ -91,6 +92,16 @@ struct Call {
 struct Index {
     CodePtr object, index;
 };
+struct Imported { ///< `name.x`: computed among the imported file's own names
+    const ImportedFile* file;
+    CodePtr value;
+};
+struct ImportedScene { ///< `name.scene`
+    const ImportedFile* file;
+};
+struct Given { ///< a value of an import's `with`: computed among the names of the importing file
+    CodePtr value;
+};
 struct Construct {
     const Constructor* constructor;
     BodyCode body;
@@ -141,7 +152,7 @@ struct Code {
     std::variant<code::Failed, code::Constant, code::Variable, code::FunctionValue, code::Unary, code::Binary,
                  code::Tuple, code::List, code::Comprehension, code::Conditional, code::Component,
                  code::SurfaceInput, code::BuiltinCall, code::ListCall, code::Call, code::Index,
-                 code::Construct>
+                 code::Imported, code::ImportedScene, code::Given, code::Construct>
         node;
     Span span;
 };

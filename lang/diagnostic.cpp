@@ -74,8 +74,33 @@ std::vector<Diagnostic> Diagnostics::sorted() const {
     result.reserve(order.size());
     for (const std::size_t i : order) {
         result.push_back(all_[i]);
+        note_imports(result.back());
     }
     return result;
+}
+
+void Diagnostics::imported(FileId file, Span where) {
+    std::vector<Span>& places = imports_[file];
+    if (std::find(places.begin(), places.end(), where) == places.end()) {
+        places.push_back(where);
+    }
+}
+
+/// The way to the scene's own file by each file's first import, and the other imports of the file itself.
+void Diagnostics::note_imports(Diagnostic& diagnostic) const {
+    constexpr std::size_t most_places = 4;
+    const auto own = imports_.find(diagnostic.span.file);
+    if (own == imports_.end()) {
+        return;
+    }
+    std::size_t length = 0;
+    for (auto file = own; file != imports_.end() && length < imports_.size(); ++length) {
+        diagnostic.note(file->second.front(), "in the file that is imported here");
+        file = imports_.find(file->second.front().file);
+    }
+    for (std::size_t i = 1; i < std::min(own->second.size(), most_places); ++i) {
+        diagnostic.note(own->second[i], "and here");
+    }
 }
 
 namespace {

@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -73,6 +74,8 @@ public:
     }
 
     void add(Diagnostic diagnostic);
+    /// What is said of `file` is followed by the places where it is imported.
+    void imported(FileId file, Span where);
 
     std::size_t count() const { return all_.size(); }
     bool has_errors() const { return errors_ > 0; }
@@ -90,6 +93,8 @@ private:
 
     std::vector<Diagnostic> all_;
     std::size_t errors_ = 0;
+    std::map<FileId, std::vector<Span>> imports_; ///< of a file, where
+    void note_imports(Diagnostic& diagnostic) const;
 };
 
 /// Clang's layout: `file:line:col: severity: message [name]`, the source line, the range, the replacement,

@@ -1,4 +1,5 @@
 #include "lang/evaluator.h"
+#include "lang/imports.h"
 #include "lang/rows.h"
 #include "lang/wording.h"
 
@@ -39,7 +40,7 @@ Value Evaluator::run(const code::Construct& node, Span span, const FramePtr& fra
     thing->span = span;
     bool is_sound = node.is_sound;
     report_.enter_thing(thing.get(), std::exchange(siblings_, nullptr));
-    body(node.body, frame, {&thing->fields, &thing->children, &is_sound});
+    body(node.body, frame, {&thing->fields, &thing->children, &is_sound, node.constructor});
     report_.leave();
     for (const Field* field : node.required) {
         if (is_sound && !thing->find(field->name)) {
@@ -100,6 +101,13 @@ void Evaluator::add_child(const Value& value, Span span, const Target& target) {
             add_child((**list)[i], span, target);
         }
     } else if (const auto* thing = std::get_if<ThingPtr>(&value.v)) {
+        const TypeKind type = (*thing)->constructor->type;
+        if (target.thing != nullptr && type != TypeKind::shape) {
+            report_.report(Diag::unexpected_item, span, in_code(target.thing->name), "shapes",
+                           "a scene with " + described(type));
+            *target.is_sound = false;
+            return;
+        }
         children_ += count_of(**thing);
         if (children_ > limits_.list_length) {
             stop(Diag::list_too_long, span, limits_.list_length);
@@ -185,10 +193,16 @@ void Evaluator::item(const PrintCode& item, const FramePtr& frame, const Target&
     }
 }
 
-std::vector<Param> Evaluator::params(const std::vector<ParamCode>& params, const FramePtr& globals) {
+std::vector<Param> Evaluator::params(const CheckedFile& file, const FramePtr& globals) {
     std::vector<Param> result;
-    for (const ParamCode& code : params) {
+    for (const ParamCode& code : file.params) {
         result.push_back(param(code, globals));
+    }
+    for (const auto& imported : file.imports) {
+        for (Param& inner : params(imported->code, imported->globals)) {
+            inner.name = fmt::format("{}.{}", imported->name, inner.name);
+            result.push_back(std::move(inner));
+        }
     }
     return result;
 }

@@ -18,6 +18,8 @@
 
 namespace scc::lang {
 
+struct CheckedFile;
+
 /// Runs checked code. What fails becomes an ErrorValue, which passes through everything silently.
 class Evaluator {
 public:
@@ -27,7 +29,10 @@ public:
 
     /// The things on the top level of a file.
     std::vector<ThingPtr> run(const BodyCode& file, const FramePtr& globals);
-    std::vector<Param> params(const std::vector<ParamCode>& params, const FramePtr& globals);
+    /// The params of the file, then those of its imports as `name.param`.
+    std::vector<Param> params(const CheckedFile& file, const FramePtr& globals);
+    /// Evaluates what the file imports, then the items of those files.
+    void imports(const CheckedFile& file);
     Value call(const FunctionCode& function, const FramePtr& frame, std::vector<Value> arguments, Span span);
 
     std::vector<std::string> take_prints() { return std::move(prints_); }
@@ -37,7 +42,8 @@ private:
     struct Target {
         std::vector<FieldValue>* fields;
         std::vector<ThingPtr>* children;
-        bool* is_sound; ///< becomes false where a field or condition of it fails
+        bool* is_sound;                     ///< becomes false where a field or condition of it fails
+        const Constructor* thing = nullptr; ///< null: the file
     };
 
     Value eval(const Code& code, const FramePtr& frame);
@@ -71,6 +77,9 @@ private:
     Value run(const code::Component& node, Span span, const FramePtr& frame);
     Value run(const code::SurfaceInput& node, Span span, const FramePtr& frame);
     Value run(const code::Index& node, Span span, const FramePtr& frame);
+    Value run(const code::Imported& node, Span span, const FramePtr& frame);
+    Value run(const code::ImportedScene& node, Span span, const FramePtr& frame);
+    Value run(const code::Given& node, Span span, const FramePtr& frame);
     Value eval_where(const Scalar& condition, bool holds, const Code& code, const FramePtr& frame);
     Value logical(const code::Binary& node, const FramePtr& frame);
     Value operate(const code::Binary& node, const Value& left, const Value& right, Span span);
@@ -100,6 +109,7 @@ private:
                const Target& target);
     void add_child(const Value& value, Span span, const Target& target);
     Param param(const ParamCode& code, const FramePtr& globals);
+    Value scene_of(const ImportedFile& file, std::vector<ThingPtr> things) const;
     /// Calls `each` with every value of a range or list until something stops the run.
     template <class Each>
     void iterate(const Value& range, Span span, const Each& each);

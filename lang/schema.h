@@ -50,6 +50,7 @@ struct Constructor {
 
 struct Schema {
     std::vector<Constructor> constructors;
+    std::string_view group{}; ///< the constructor that holds the shapes of an imported file; empty: none does
 
     const Constructor* find(std::string_view name) const;
 };

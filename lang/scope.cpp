@@ -16,7 +16,9 @@ Binding& Names::bind(Scope& scope, Binding::Kind kind, std::string_view name, Sp
     binding.span = span;
     binding.scope = &scope;
     binding.owner = owner;
-    if (kind != Binding::Kind::function && kind != Binding::Kind::alias) {
+    const bool has_cell =
+        kind == Binding::Kind::let || kind == Binding::Kind::param || kind == Binding::Kind::variable;
+    if (has_cell) {
         binding.cell = static_cast<std::uint32_t>(scope.cells.size());
         scope.cells.push_back(&binding);
     }
@@ -72,11 +74,17 @@ static bool stands_within(const Binding& inner, const Binding* outer) {
 
 void Names::note_use(Binding& target, Span span, Binding* user) {
     target.used = true;
-    if (target.kind == Binding::Kind::variable || target.kind == Binding::Kind::alias) {
+    if (target.kind == Binding::Kind::variable || target.kind == Binding::Kind::misplaced) {
         return;
     }
     for (Binding* b = user; b && !stands_within(target, b); b = b->owner) {
         b->uses.push_back({&target, span});
+    }
+}
+
+void Names::export_all(const Scope& scope) {
+    for (const auto& [name, binding] : scope.names) {
+        binding->used = binding->used || binding->kind != Binding::Kind::import;
     }
 }
 

@@ -16,6 +16,7 @@ namespace scc::lang {
 
 struct Scope;
 struct Binding;
+struct ImportedNames;
 
 /// One mention of a name in the definition of another.
 struct Use {
@@ -26,7 +27,7 @@ struct Use {
 /// A name with what it stands for. Its type is found when it is first needed, so definitions may stand in any
 /// order.
 struct Binding {
-    enum class Kind { let, param, function, variable, alias };
+    enum class Kind { let, param, function, variable, import, misplaced };
     enum class State { unchecked, checking, checked };
 
     Kind kind = Kind::variable;
@@ -46,7 +47,8 @@ struct Binding {
     const ast::Let* let = nullptr;
     const ast::Param* param = nullptr;
     const ast::Function* function = nullptr;
-    std::vector<Use> uses; ///< of definitions outside of this one
+    ImportedNames* imported = nullptr; ///< of an import; null: it could not be read
+    std::vector<Use> uses;             ///< of definitions outside of this one
 };
 
 /// The names of one body, function or loop; one frame at run time.
@@ -72,6 +74,8 @@ public:
     /// Remembers that the definition `user` (null: the file's items) mentions `target`.
     static void note_use(Binding& target, Span span, Binding* user);
 
+    /// All names of the scope count as used from here on, as those that another file may use.
+    static void export_all(const Scope& scope);
     /// Nothing is said of names for which `maybe_used` holds, or whose definition is wrong.
     template <class MaybeUsed>
     void warn_unused(const MaybeUsed& maybe_used);
@@ -99,6 +103,8 @@ void Names::warn_unused(const MaybeUsed& maybe_used) {
             diagnostics_.report(Diag::unused_let, binding.span, binding.name);
         } else if (binding.kind == Binding::Kind::param) {
             diagnostics_.report(Diag::unused_param, binding.span, binding.name);
+        } else if (binding.kind == Binding::Kind::import) {
+            diagnostics_.report(Diag::unused_import, binding.span, binding.name);
         }
     }
 }

@@ -19,7 +19,7 @@ constexpr std::array named_kinds{
     NamedKind{"shape", TypeKind::shape},   NamedKind{"material", TypeKind::material},
     NamedKind{"light", TypeKind::light},   NamedKind{"camera", TypeKind::camera},
     NamedKind{"image", TypeKind::image},   NamedKind{"setting", TypeKind::setting},
-    NamedKind{"method", TypeKind::method},
+    NamedKind{"method", TypeKind::method}, NamedKind{"scene", TypeKind::scene},
 };
 
 std::string_view name_of(TypeKind kind) {

@@ -24,6 +24,7 @@ enum class TypeKind {
     light,
     camera,
     image,
+    scene,    ///< what an imported file adds: shapes, lights and cameras
     setting,  ///< `world`, `render`
     method,   ///< `ray`, `raster`
     list,     ///< args[0] is the element

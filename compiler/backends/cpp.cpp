@@ -4,6 +4,7 @@
 #include "compiler/ir/traits.h"
 #include "compiler/mesh_cache.h"
 #include "compiler/writer.h"
+#include "runtime/host/cache.h"
 #include "runtime/host/parallel.h"
 #include "runtime/host/values.h"
 
@@ -164,9 +165,10 @@ std::string table_name(const Placed<Shape, R>*) {
 template <class R>
 class Emitter {
 public:
-    Emitter(const ir::Scene& scene, Precision precision, Numbers numbers, const std::string& values_name)
+    Emitter(const ir::Scene& scene, Precision precision, Numbers numbers, const std::string& values_name,
+            const ProgramParameters* parameters)
         : scene_(scene), precision_(precision), in_code_(numbers == Numbers::in_code),
-          any_scene_(numbers == Numbers::of_any_scene), values_name_(values_name) {}
+          any_scene_(numbers == Numbers::of_any_scene), values_name_(values_name), parameters_(parameters) {}
 
     CppProgram emit();
 
@@ -191,6 +193,8 @@ private:
     bool in_code_;
     bool any_scene_;
     std::string values_name_;
+    const ProgramParameters* parameters_;
+    std::string structure_;
     host::ValuesWriter values_;
     std::vector<std::string> reads_; // statements of `load`, in the order of the values
     std::vector<R> function_constants_;
@@ -421,13 +425,17 @@ void Emitter<R>::program() {
     std::string facts;
     if (in_code_) {
         const runtime::RenderSettings& s = scene_.settings;
-        facts = fmt::format(", {}, {{{}, {}, {}, {}, {}}}{}", quote(Language::cpp, scene_.name), s.width,
-                            s.height, s.samples_per_axis, s.depth, literal(s.shadows),
-                            !has_values() ? "" : ", scene_values, sizeof scene_values");
+        facts = fmt::format(
+            ", .scene = {}, .settings = {{{}, {}, {}, {}, {}}}{}", quote(Language::cpp, scene_.name), s.width,
+            s.height, s.samples_per_axis, s.depth, literal(s.shadows),
+            !has_values() ? "" : ", .values = scene_values, .values_size = sizeof scene_values");
+    } else if (parameters_ != nullptr) {
+        facts = fmt::format(", .redefine = scc::compiler::redefine, .structure = \"{}\"", structure_);
     }
-    out_.line("return scc::host::run_program({{\"{}\", scc::host::compiled_isa, features, load, draw{}}}, "
-              "argc, argv);",
-              name_of(precision_), facts);
+    out_.line(
+        "return scc::host::run_program({{.precision = \"{}\", .isa = scc::host::compiled_isa, .features = "
+        "features, .load = load, .draw = draw{}}}, argc, argv);",
+        name_of(precision_), facts);
     out_.dedent();
     out_.raw_line("}");
 }
@@ -438,6 +446,10 @@ CppProgram Emitter<R>::emit() {
         values_.add_text(scene_.name);
         values_.add(scene_.settings);
     }
+    if (parameters_ != nullptr) {
+        values_.add_text(parameters_->scene);
+        values_.add_text(parameters_->listing);
+    }
     // The scene type is written first, since it says which values there are.
     scene_type();
     const std::string type = out_.take();
@@ -446,6 +458,10 @@ CppProgram Emitter<R>::emit() {
     out_ = Writer();
     for (const std::string_view header : program_headers) {
         out_.line("#include {}", header);
+    }
+    if (parameters_ != nullptr) {
+        out_.raw_line("#include \"compiler/redefine.h\"");
+        structure_ = host::cache_key({type});
     }
     out_.blank();
     if (in_code_ && !values.empty()) {
@@ -461,15 +477,17 @@ CppProgram Emitter<R>::emit() {
     const std::string head = out_.take();
     out_ = Writer();
     program();
-    return {head + type + "\n" + out_.take(), values};
+    return {head + type + "\n" + out_.take(), values, structure_};
 }
 
 } // namespace
 
 CppProgram emit_cpp(const ir::Scene& scene, Precision precision, Numbers numbers,
-                    const std::string& values_name) {
-    return precision == Precision::single ? Emitter<float>(scene, precision, numbers, values_name).emit()
-                                          : Emitter<double>(scene, precision, numbers, values_name).emit();
+                    const std::string& values_name, const ProgramParameters* parameters) {
+    const auto emit = [&]<class R>(R) {
+        return Emitter<R>(scene, precision, numbers, values_name, parameters).emit();
+    };
+    return precision == Precision::single ? emit(0.0F) : emit(0.0);
 }
 
 } // namespace scc::compiler

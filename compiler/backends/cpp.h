@@ -23,17 +23,25 @@ enum class Numbers {
     of_any_scene
 };
 
+/// What a program needs to draw its scene with other values of its `param`s (see compiler/redefine.h).
+struct ProgramParameters {
+    std::string scene;   ///< packed, see compiler/program_scene.h
+    std::string listing; ///< for people, a line each
+};
+
 /// A program that draws one scene: data and one type over the runtime's headers.
 struct CppProgram {
     std::string source;
     /// As host::ValuesWriter gives them. With Numbers::in_code the large tables and meshes, which the source
     /// takes in by `.incbin`, or nothing.
     std::string values;
+    std::string structure; ///< with parameters: stands for the source
+    bool takes_definitions() const { return !structure.empty(); }
 };
 
 /// `values_name`: the name under which the values will lie beside the source. Its letters, digits, `_`, `-`
-/// and `.` only.
+/// and `.` only. `parameters`: null for a program that draws the scene as it is; needs Numbers::as_values.
 CppProgram emit_cpp(const ir::Scene& scene, Precision precision, Numbers numbers,
-                    const std::string& values_name = "");
+                    const std::string& values_name = "", const ProgramParameters* parameters = nullptr);
 
 } // namespace scc::compiler

@@ -4,6 +4,7 @@
 #include "compiler/cli/commands.h"
 #include "compiler/cli/native.h"
 #include "compiler/ir/print.h"
+#include "compiler/program_scene.h"
 #include "compiler/writer.h"
 #include "lang/dump.h"
 #include "runtime/host/file.h"
@@ -83,8 +84,13 @@ void emit_program(const Loaded& loaded, const Options& options) {
         throw host::UsageError("a program cannot go to standard output: give `-o` a file name");
     }
     const compiler::PrecisionChoice precision = choose_precision(loaded.scene, options);
-    compile_native(emit_cpp(loaded.scene, precision.precision, compiler::Numbers::as_values), options.native,
-                   options.output);
+    std::optional<compiler::ProgramParameters> parameters;
+    if (!loaded.module.params.empty()) {
+        parameters = parameters_of(loaded, options.scene);
+    }
+    compile_native(emit_cpp(loaded.scene, precision.precision, compiler::Numbers::as_values, "",
+                            parameters ? &*parameters : nullptr),
+                   options.native, options.output);
     if (!options.report.empty()) {
         const ReportKind kind = options.report == "json" ? ReportKind::json : ReportKind::text;
         write_result("-", build_report(loaded, precision, options.native, options.output, kind));

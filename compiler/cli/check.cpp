@@ -8,7 +8,9 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include <map>
 #include <memory>
+#include <string>
 
 namespace scc::cli {
 
@@ -67,19 +69,37 @@ Json to_json(const lang::SourceSet& sources, const lang::Diagnostic& diagnostic)
     return json;
 }
 
-/// Checks a scene and writes the fixes of its mistakes into the file, until what is left has none: a mistake
-/// can hide others. Each writing leaves the file whole. `fixed` is the number of fixes.
-Loaded mend(const SceneOptions& scene, std::size_t& fixed) {
+using FixCounts = std::map<std::string, std::size_t>; ///< by file
+
+/// Writes the fixes of one file into it, which leaves it whole. True if there were any.
+bool mend_file(const Loaded& loaded, lang::FileId id, FixCounts& fixed) {
+    const lang::SourceFile& file = loaded.sources.file(id);
+    const std::vector<lang::Fix> fixes = lang::fixes_for(id, loaded.diagnostics.sorted());
+    if (fixes.empty()) {
+        return false;
+    }
+    host::replace_file(file.path(), lang::with_fixes(file.text(), fixes));
+    fixed[file.path()] += fixes.size();
+    return true;
+}
+
+/// Checks a scene and writes the fixes of its mistakes into its file and those that it imports, until what is
+/// left has none: a mistake can hide others.
+Loaded mend(const SceneOptions& scene, FixCounts& fixed) {
     constexpr int most_rounds = 20; // a fix that leads to another one can go on for ever
     constexpr lang::FileId scene_file = 0;
     for (int round = 0;; ++round) {
         Loaded loaded = load(scene, Stage::scene);
-        const std::vector<lang::Fix> fixes = lang::fixes_for(scene_file, loaded.diagnostics.sorted());
-        if (fixes.empty() || round == most_rounds) {
+        if (round == most_rounds) {
             return loaded;
         }
-        host::replace_file(scene.file, lang::with_fixes(loaded.sources.file(scene_file).text(), fixes));
-        fixed += fixes.size();
+        bool any = mend_file(loaded, scene_file, fixed);
+        for (const lang::FileId import : loaded.module.imports) {
+            any = mend_file(loaded, import, fixed) || any;
+        }
+        if (!any) {
+            return loaded;
+        }
     }
 }
 
@@ -90,11 +110,11 @@ int check(const CheckOptions& options) {
     for (const std::string& file : options.files) {
         SceneOptions scene = options.scene;
         scene.file = file;
-        const std::size_t fixed_before = fixed;
-        Loaded loaded = options.fix ? mend(scene, fixed) : load(scene, Stage::scene);
-        if (fixed > fixed_before) {
-            fmt::print(stderr, "{}: {} fix{} made\n", file, fixed - fixed_before,
-                       fixed - fixed_before == 1 ? "" : "es");
+        FixCounts counts;
+        Loaded loaded = options.fix ? mend(scene, counts) : load(scene, Stage::scene);
+        for (const auto& [path, count] : counts) {
+            fmt::print(stderr, "{}: {} fix{} made\n", path, count, count == 1 ? "" : "es");
+            fixed += count;
         }
         if (options.strict) {
             loaded.diagnostics.promote_warnings();
@@ -133,15 +153,6 @@ Json to_json(const lang::Param& param) {
     return json;
 }
 
-std::string to_text(const lang::Param& param) {
-    std::string text = fmt::format("{}: {} = {}", param.name, lang::to_string(param.type),
-                                   lang::to_string(param.default_value));
-    if (param.range) {
-        text += fmt::format(" in {}..{}", param.range->first, param.range->second);
-    }
-    return text + (param.text.empty() ? "\n" : fmt::format("  // {}\n", param.text));
-}
-
 int list_params(const ParamsOptions& options) {
     const Loaded loaded = load(options.scene, Stage::module);
     if (!report(loaded)) {
@@ -150,7 +161,7 @@ int list_params(const ParamsOptions& options) {
     std::string text;
     Json json = Json::array();
     for (const lang::Param& param : loaded.module.params) {
-        text += to_text(param);
+        text += compiler::described(param) + "\n";
         json.push_back(to_json(param));
     }
     write_result("-", options.json ? Json{{"schema", 1}, {"params", json}}.dump(2) + "\n" : text);
@@ -165,8 +176,10 @@ void add_check(CLI::App& app, Run& selected) {
     command->add_option("FILE", options->files, "scenes, .scn files")->required();
     add_scene_values(*command, options->scene);
     command->add_flag("--strict", options->strict, "warnings are errors");
-    command->add_flag("--fix", options->fix,
-                      "write the replacements that are shown into the files, then say what is left");
+    command->add_flag(
+        "--fix", options->fix,
+        "write the replacements that are shown into the files and those that they import, then say what is "
+        "left");
     command->add_flag("--json", options->json, "diagnostics as JSON on standard output");
     command->callback([&selected, options] { selected = [options] { return check(*options); }; });
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "compiler/backends/precision.h"
-#include "compiler/cli/pipeline.h"
+#include "compiler/pipeline.h"
 #include "runtime/host/options.h"
 
 #include <functional>
@@ -16,6 +16,13 @@ class App;
 /// The commands of scc. Each `add_...` registers one with its options; what it runs returns the exit code and
 /// may throw host::UsageError (2), host::FileError and EnvironmentError (3).
 namespace scc::cli {
+
+using compiler::load;
+using compiler::Loaded;
+using compiler::read_text_file;
+using compiler::report;
+using compiler::SceneOptions;
+using compiler::Stage;
 
 using Run = std::function<int()>;
 

@@ -25,17 +25,22 @@ namespace {
 
 constexpr double compile_timeout_seconds = 600;
 
-// Where the runtime's headers and the host library lie: beside an installed scc, else where scc was built.
+// Where the headers and the libraries of programs lie: beside an installed scc, else where scc was built.
 struct RuntimeFiles {
     fs::path include;
     fs::path library;
+    std::vector<fs::path> front_end; ///< libraries too, of programs whose scene has parameters
 };
 
 RuntimeFiles find_runtime() {
     std::error_code error;
     const fs::path prefix = fs::read_symlink("/proc/self/exe", error).parent_path().parent_path();
-    const RuntimeFiles candidates[] = {{prefix / "include/scc", prefix / "lib/scc/libscc_host.a"},
-                                       {SCC_SOURCE_DIR, SCC_HOST_LIBRARY}};
+    const fs::path installed = prefix / "lib/scc";
+    const RuntimeFiles candidates[] = {
+        {prefix / "include/scc",
+         installed / "libscc_host.a",
+         {installed / "libscc_compiler.a", installed / "libscc_lang.a"}},
+        {SCC_SOURCE_DIR, SCC_HOST_LIBRARY, {SCC_COMPILER_LIBRARY, SCC_LANG_LIBRARY}}};
     for (const RuntimeFiles& files : candidates) {
         if (fs::exists(files.include / "runtime/render.h", error) && fs::exists(files.library, error)) {
             return files;
@@ -149,6 +154,28 @@ Toolchain find_toolchain(Target target) {
     return result;
 }
 
+/// What a program is linked with, and what of that is not in the toolchain's key.
+struct Libraries {
+    std::vector<std::string> arguments;
+    std::string key;
+};
+
+Libraries libraries_of(const compiler::CppProgram& program, const RuntimeFiles& runtime) {
+    Libraries result;
+    if (!program.takes_definitions()) {
+        result.arguments = {runtime.library.string()};
+        return result;
+    }
+    for (const fs::path& library : runtime.front_end) {
+        result.arguments.push_back(library.string());
+        result.key += stamp_of(library) + "\n";
+    }
+    result.arguments.push_back(runtime.library.string());
+    const std::vector<std::string> theirs = words(SCC_FRONT_END_LINK_LIBRARIES);
+    result.arguments.insert(result.arguments.end(), theirs.begin(), theirs.end());
+    return result;
+}
+
 void run_compiler(const Toolchain& toolchain, std::vector<std::string> arguments, const fs::path& folder) {
     validation::Command command;
     command.program = toolchain.compiler;
@@ -188,12 +215,13 @@ void provide_common_header(const Toolchain& toolchain, const host::Cache& cache,
     }
 }
 
-std::string compile(const Toolchain& toolchain, const host::Cache& cache, const std::string& source) {
+std::string compile(const Toolchain& toolchain, const host::Cache& cache, const std::string& source,
+                    const std::vector<std::string>& libraries) {
     const validation::ScratchFolder folder;
     provide_common_header(toolchain, cache, folder.path());
     host::replace_file((folder.path() / "scene.cpp").string(), source);
-    std::vector<std::string> arguments{"-include", common_header, "scene.cpp",
-                                       "-o",       "program",     toolchain.runtime.library.string()};
+    std::vector<std::string> arguments{"-include", common_header, "scene.cpp", "-o", "program"};
+    arguments.insert(arguments.end(), libraries.begin(), libraries.end());
     arguments.insert(arguments.end(), toolchain.link_flags.begin(), toolchain.link_flags.end());
     run_compiler(toolchain, arguments, folder.path());
     return std::string(host::MappedFile((folder.path() / "program").string()).text());
@@ -217,12 +245,13 @@ void compile_native(const compiler::CppProgram& program, const NativeOptions& op
                     const fs::path& output) {
     const Toolchain toolchain = find_toolchain(options.target);
     const host::Cache cache = options.use_cache ? host::Cache::of_user() : host::Cache();
-    const std::string key = host::cache_key({toolchain.key, program.source});
+    const Libraries libraries = libraries_of(program, toolchain.runtime);
+    const std::string key = host::cache_key({toolchain.key, libraries.key, program.source});
     if (const std::optional<host::Cache::Entry> found = cache.find("code", key)) {
         install(found->content(), program.values, output);
         return;
     }
-    const std::string code = compile(toolchain, cache, program.source);
+    const std::string code = compile(toolchain, cache, program.source, libraries.arguments);
     cache.store("code", key, code);
     install(code, program.values, output);
 }

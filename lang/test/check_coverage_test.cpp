@@ -56,8 +56,17 @@ const std::map<Diag, std::string>& scenes() {
         {Diag::shadowed_name, "let sin = 1\nprint(sin)"},
         {Diag::unused_let, "let a = 1"},
         {Diag::unused_param, "param a: number = 1"},
+        {Diag::unused_import, "import \"part.scn\" as part"},
         {Diag::cyclic_definition, "let a = a"},
         {Diag::result_type_needed, "fn f(x: number) = f(x)"},
+        {Diag::cyclic_import, "import \"round.scn\" as round\nround.scene"},
+        {Diag::too_many_imports, "import \"part.scn\" as a\nimport \"part.scn\" as b\n"
+                                 "import \"part.scn\" as c\na.scene\nb.scene\nc.scene"},
+        {Diag::unreadable_import, "import \"none.scn\" as none\nnone.scene"},
+        {Diag::import_outside, "import \"/part.scn\" as part\npart.scene"},
+        {Diag::bare_import, "import \"part.scn\" as part\npart"},
+        {Diag::unknown_import_param, "import \"part.scn\" as part with { sise = 2 }\npart.scene"},
+        {Diag::unit_differs, "import \"inches.scn\" as part\npart.scene"},
         {Diag::misplaced_item, "pile { param a: number = 1 }"},
         {Diag::unknown_name, "print(a)"},
         {Diag::unknown_type, "let a: vec4 = 1"},
@@ -134,7 +143,13 @@ test::Scene scene_of(Diag kind) {
     limits.steps = 5000;
     limits.list_length = 100;
     limits.string_length = 100;
-    test::Scene scene(text, definitions, limits);
+    limits.imports = 2;
+    const test::MemoryImporter::Files files{
+        {"part.scn", "param size: number = 1\nball { radius = size }"},
+        {"round.scn", "import \"a.scn\" as a\na.scene"},
+        {"inches.scn", "world { unit = \"inch\" }\nball { }"},
+    };
+    test::Scene scene(text, definitions, limits, false, files);
     test::trace_all(scene);
     return scene;
 }

@@ -4,6 +4,7 @@
 #include "lang/components.h"
 #include "lang/schema.h"
 #include "lang/test/front.h"
+#include "lang/test/memory_importer.h"
 
 #include <numbers>
 
@@ -91,6 +92,7 @@ inline const Schema& toy_schema() {
                    choice("shading", {"flat", "smooth"})}),
         };
         s.constructors[3].takes_children = true;
+        s.group = "pile";
         s.constructors[4].supported = false;
         return s;
     }();
@@ -102,10 +104,13 @@ struct Scene : Front {
     Module module;
 
     explicit Scene(std::string_view text, const std::vector<Definition>& definitions = {},
-                   const EvaluationLimits& limits = {}, bool in_tables = false)
+                   const EvaluationLimits& limits = {}, bool in_tables = false,
+                   const MemoryImporter::Files& files = {})
         : Front(text) {
+        MemoryImporter importer(files);
         const auto tree = in_tables ? read_file(sources, file, diagnostics) : parse();
-        module = check(tree, toy_schema(), definitions, sources, diagnostics, limits);
+        module = check(tree, toy_schema(), definitions, sources, diagnostics, limits,
+                       files.empty() ? nullptr : &importer);
     }
 };
 

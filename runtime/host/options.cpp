@@ -111,7 +111,20 @@ constexpr auto rows = std::to_array<OptionRow>({
      false, [](RenderOptions& options, const std::string& text) { options.stats = text; }},
 });
 
-void print_help(const std::string& program, const std::string& purpose) {
+/// An option of programs whose scene has parameters, which may be repeated.
+struct ListRow {
+    const char* name;
+    const char* value;
+    const char* help;
+    std::vector<std::string> ProgramOptions::*list;
+};
+constexpr ListRow list_rows[] = {
+    {"-D", "NAME=VALUE", "set one of the parameters; may be repeated", &ProgramOptions::definitions},
+    {"--asset-path", "FOLDER", "where the scene's files are, if not in the current folder; may be repeated",
+     &ProgramOptions::asset_paths},
+};
+
+void print_help(const std::string& program, const std::string& purpose, const std::string& parameters) {
     std::string text = purpose + "\n\nUsage: " + program;
     for (const OptionRow& row : rows) {
         if (row.required) {
@@ -130,24 +143,81 @@ void print_help(const std::string& program, const std::string& purpose) {
         const std::string short_name = row.short_name != nullptr ? std::string(row.short_name) + "," : "";
         add("  " + short_name + row.name + " " + row.value, row.help);
     }
+    if (!parameters.empty()) {
+        for (const ListRow& row : list_rows) {
+            add(std::string("  ") + row.name + " " + row.value, row.help);
+        }
+        text += "\nParameters:\n" + parameters;
+    }
     std::fputs(text.c_str(), stdout);
 }
 
-/// The row that `argument` names, and the value if it is in the same word (`--size=8x8`, `-oa.png`).
-std::pair<const OptionRow*, std::optional<std::string>> find_row(const std::string& argument) {
-    for (const OptionRow& row : rows) {
-        const std::string name = row.name;
-        if (argument == name || (row.short_name != nullptr && argument == row.short_name)) {
-            return {&row, std::nullopt};
+/// The value if it is in the same word as the option: `--size=8x8`, `-oa.png`.
+std::optional<std::string> value_in_word(const std::string& argument, const std::string& name) {
+    const bool is_long = name.starts_with("--");
+    const std::string head = is_long ? name + "=" : name;
+    if (argument.size() > head.size() && argument.starts_with(head)) {
+        return argument.substr(head.size());
+    }
+    return is_long && argument == head ? std::optional<std::string>("") : std::nullopt;
+}
+
+/// The arguments one by one, and the words after options that need a value.
+class Arguments {
+public:
+    Arguments(int argc, char** argv) : words_(argv + 1, argv + argc) {}
+
+    /// Whether there is one more, which then is current().
+    bool next() { return ++at_ < words_.size(); }
+    const std::string& current() const { return words_[at_]; }
+    /// The current option's value, if this is its name.
+    std::optional<std::string> value_of(const std::string& name, const char* wanted) {
+        if (current() != name) {
+            return value_in_word(current(), name);
         }
-        if (argument.starts_with(name + "=")) {
-            return {&row, argument.substr(name.size() + 1)};
+        if (!next()) {
+            throw UsageError(name + " needs a value, " + wanted);
         }
-        if (row.short_name != nullptr && argument.starts_with(row.short_name)) {
-            return {&row, argument.substr(2)};
+        return current();
+    }
+
+private:
+    std::vector<std::string> words_;
+    std::size_t at_ = static_cast<std::size_t>(-1);
+};
+
+/// Whether the current argument was one of the render options, which then is set.
+bool take_render_option(Arguments& arguments, RenderOptions& options, std::array<bool, rows.size()>& given) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const OptionRow& row = rows[i];
+        std::optional<std::string> value = arguments.value_of(row.name, row.value);
+        if (!value && row.short_name != nullptr) {
+            value = arguments.value_of(row.short_name, row.value);
+        }
+        if (!value) {
+            continue;
+        }
+        if (std::exchange(given[i], true)) {
+            throw UsageError(std::string(row.name) + " is given twice");
+        }
+        try {
+            row.set(options, *value);
+        } catch (const UsageError& error) {
+            throw UsageError(std::string(row.name) + ": " + error.what());
+        }
+        return true;
+    }
+    return false;
+}
+
+bool take_list_option(Arguments& arguments, ProgramOptions& options) {
+    for (const ListRow& row : list_rows) {
+        if (std::optional<std::string> value = arguments.value_of(row.name, row.value)) {
+            (options.*row.list).push_back(std::move(*value));
+            return true;
         }
     }
-    throw UsageError("there is no option `" + argument + "`; --help lists them");
+    return false;
 }
 
 } // namespace
@@ -156,31 +226,23 @@ std::span<const OptionRow> render_option_rows() {
     return rows;
 }
 
-std::optional<RenderOptions> parse_program_options(int argc, char** argv, const std::string& purpose) {
-    RenderOptions options;
+std::optional<ProgramOptions> parse_program_options(int argc, char** argv, const std::string& purpose,
+                                                    const std::string& parameters) {
+    ProgramOptions options;
     std::array<bool, rows.size()> given{};
-    for (int i = 1; i < argc; ++i) {
-        const std::string argument = argv[i];
+    for (Arguments arguments(argc, argv); arguments.next();) {
+        const std::string argument = arguments.current();
         if (argument == "-h" || argument == "--help") {
-            print_help(argv[0], purpose);
+            print_help(argv[0], purpose, parameters);
             return std::nullopt;
         }
-        auto [row, value] = find_row(argument);
-        if (!value) {
-            if (++i >= argc) {
-                throw UsageError(argument + " needs a value, " + row->value);
-            }
-            value = argv[i];
+        if (take_render_option(arguments, options.render, given) ||
+            (!parameters.empty() && take_list_option(arguments, options))) {
+            continue;
         }
-        bool& before = given[static_cast<std::size_t>(row - rows.data())];
-        if (std::exchange(before, true)) {
-            throw UsageError(std::string(row->name) + " is given twice");
-        }
-        try {
-            row->set(options, *value);
-        } catch (const UsageError& error) {
-            throw UsageError(std::string(row->name) + ": " + error.what());
-        }
+        throw UsageError(parameters.empty() && argument.starts_with("-D")
+                             ? "the scene has no `param` that -D could set"
+                             : "there is no option `" + argument + "`; --help lists them");
     }
     for (const OptionRow& row : rows) {
         if (row.required && !given[static_cast<std::size_t>(&row - rows.data())]) {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 /// The render options, shared by `scc render` and the programs that `scc build` makes.
 namespace scc::host {
@@ -52,9 +53,17 @@ struct OptionRow {
 /// All of them: the one table that scc's commands and the programs' own command line are made from.
 std::span<const OptionRow> render_option_rows();
 
+struct ProgramOptions {
+    RenderOptions render;
+    std::vector<std::string> definitions; ///< -D NAME=VALUE
+    std::vector<std::string> asset_paths;
+};
+
 /// A built program's command line. Nothing if it asked for `--help`, which then was printed with `purpose` at
-/// its head. Throws UsageError.
-std::optional<RenderOptions> parse_program_options(int argc, char** argv, const std::string& purpose);
+/// its head. `parameters` lists those that `-D` can set, a line each; without any there is no such option.
+/// Throws UsageError.
+std::optional<ProgramOptions> parse_program_options(int argc, char** argv, const std::string& purpose,
+                                                    const std::string& parameters);
 
 /// What can be told before any work: an unknown image type, `-o -` (UsageError), a folder that cannot be
 /// written (FileError).

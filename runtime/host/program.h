@@ -4,7 +4,26 @@
 #include "runtime/image.h"
 #include "runtime/render_request.h"
 
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
 namespace scc::host {
+
+/// Other values of a scene's `param`s, for a program that was made before.
+struct Redefinition {
+    std::string_view scene; ///< what the compiler packed for this
+    std::string_view structure;
+    std::string_view precision;
+    std::vector<std::string> definitions; ///< NAME=VALUE
+    std::vector<std::string> asset_paths;
+};
+
+/// The scene is wrong with these values, which was said on standard error.
+struct SceneError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
 
 /// What a program made by `scc build` is: the code compiled for a scene, and where the scene's numbers are.
 struct Program {
@@ -19,6 +38,11 @@ struct Program {
     runtime::RenderSettings settings{};
     const unsigned char* values = nullptr; ///< with a name: those that `load` reads, or null for none
     std::size_t values_size = 0;
+    /// Null: the scene has no `param`. Else what makes the values for others of its values, in the form in
+    /// which they are at the end of the program's file. There the scene, packed, and a list of the `param`s
+    /// for people come after the settings. Throws UsageError, FileError, SceneError.
+    std::string (*redefine)(const Redefinition&) = nullptr;
+    const char* structure = nullptr; ///< what of the scene is in the code
 };
 
 /// The program's main: reads the options, draws, writes. Returns the exit code.

@@ -6,6 +6,7 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <thread>
 #include <unistd.h>
 
@@ -454,4 +455,99 @@ TEST_F(CommandLine, EmitsEveryStage) {
 }
 
 } // namespace
+// ---- imports -------------------------------------------------------------------------------------------
+
+constexpr const char* studio = "param power: number = 1 in 0..10 \"of the light\"\nlet grey = 0.5\n"
+                               "point_light { position = (0, 5, 5), color = rgb(power, power, power) }\n"
+                               "perspective_camera { }\nsphere { radius = grey }\n";
+
+TEST_F(CommandLine, ImportsAreDrawnLikeTheSameSceneInOneFile) {
+    std::filesystem::create_directories(folder() / "rooms");
+    write("rooms/studio.scn", studio);
+    write("a.scn", "import \"rooms/studio.scn\" as studio with { power = 2 }\nstudio.scene\n"
+                   "sphere { center = (1, 0, 0), radius = studio.grey }\n");
+    write("b.scn",
+          "sphere { radius = 0.5 }\nsphere { center = (1, 0, 0), radius = 0.5 }\nperspective_camera { }\n"
+          "point_light { position = (0, 5, 5), color = rgb(2, 2, 2) }\n");
+    for (const char* name : {"a", "b"}) {
+        const auto result = scc({"render", std::string(name) + ".scn", "-o", std::string(name) + ".pfm",
+                                 "--size", "64x48", "--progress", "never"});
+        EXPECT_EQ(result.code, 0) << result.err;
+        EXPECT_EQ(result.err, "");
+    }
+    EXPECT_EQ(read("a.pfm"), read("b.pfm"));
+    const auto built = scc({"build", "a.scn", "-o", "a.ir", "--emit", "ir"});
+    EXPECT_EQ(built.code, 0) << built.err;
+    EXPECT_NE(read("a.ir").find("studio/sphere"), std::string::npos) << read("a.ir");
+    EXPECT_NE(read("a.ir").find("studio/point_light"), std::string::npos) << read("a.ir");
+}
+
+TEST_F(CommandLine, ParamsOfImportsAreListedAndSet) {
+    write("studio.scn", studio);
+    write("a.scn", "import \"studio.scn\" as studio\nstudio.scene\n");
+    EXPECT_EQ(scc({"params", "a.scn"}).out, "studio.power: number = 1 in 0..10  // of the light\n");
+    EXPECT_EQ(scc({"check", "a.scn", "-D", "studio.power=3"}).code, 0);
+    EXPECT_EQ(scc({"check", "a.scn", "-D", "studio.power=30"}).code, 1);
+}
+
+TEST_F(CommandLine, AnImportStaysInTheFolderOfTheScene) {
+    std::filesystem::create_directories(folder() / "inner");
+    write("studio.scn", studio);
+    write("inner/a.scn", "import \"../studio.scn\" as studio\nstudio.scene\n");
+    const auto refused = scc({"check", "inner/a.scn"});
+    EXPECT_EQ(refused.code, 1);
+    EXPECT_EQ(
+        refused.err,
+        R"(inner/a.scn:1:8: error: `../studio.scn` lies outside the scene's folder; allow its folder with --asset-path [import-outside]
+    1 | import "../studio.scn" as studio
+      |        ^~~~~~~~~~~~~~~
+1 error
+)");
+    EXPECT_EQ(scc({"check", "inner/a.scn", "-D", "x=../studio.scn"}).code, 1);
+    EXPECT_EQ(scc({"check", "inner/a.scn", "--asset-path", "."}).code, 0);
+    std::filesystem::create_symlink(folder() / "studio.scn", folder() / "inner/link.scn");
+    write("inner/b.scn", "import \"link.scn\" as studio\nstudio.scene\n");
+    EXPECT_EQ(scc({"check", "inner/b.scn"}).code, 1);
+    write(
+        "c.scn",
+        "import \"inner\" as a\nimport \"none.scn\" as b\nimport \"c.scn\" as c\na.scene\nb.scene\nc.scene");
+    EXPECT_EQ(scc({"check", "c.scn"}).err,
+              R"(c.scn:1:8: error: cannot read `inner`: it is not a file [unreadable-import]
+    1 | import "inner" as a
+      |        ^~~~~~~
+c.scn:2:8: error: cannot read `none.scn`: there is no such file in the folder of this one [unreadable-import]
+    2 | import "none.scn" as b
+      |        ^~~~~~~~~~
+c.scn:3:8: error: `c.scn` imports itself [cyclic-import]
+    3 | import "c.scn" as c
+      |        ^~~~~~~
+c.scn:3:8: note: `c.scn` imports `c.scn` here
+3 errors
+)");
+}
+
+TEST_F(CommandLine, AssetsOfAnImportLieBesideIt) {
+    std::filesystem::create_directories(folder() / "parts");
+    write("parts/t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write("parts/t.scn", "param model: string = \"t.obj\"\nmesh { file = model }\n");
+    write("other.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write("a.scn", "import \"parts/t.scn\" as t\nimport \"parts/t.scn\" as u with { model = \"other.obj\" }\n"
+                   "t.scene\nu.scene\npoint_light { position = (0, 1, 2) }\nperspective_camera { }\n");
+    const auto result = scc({"check", "a.scn"});
+    EXPECT_EQ(result.code, 0) << result.err;
+    write("b.scn", "mesh { file = \"t.obj\" }\n");
+    EXPECT_EQ(scc({"check", "b.scn"}).code, 1);
+}
+
+TEST_F(CommandLine, FixesGoIntoTheFileThatHasTheMistake) {
+    write("part.scn", "sphere { radus = 2 }\n");
+    write("a.scn", "import \"part.scn\" as part\npart.scene\nperspective_camera { fov_y = 40 }\n"
+                   "point_light { position = (0, 5, 0) }\n");
+    const auto result = scc({"check", "--fix", "a.scn"});
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_EQ(result.err, "a.scn: 1 fix made\npart.scn: 1 fix made\n");
+    EXPECT_EQ(read("part.scn"), "sphere { radius = 2 }\n");
+    EXPECT_NE(read("a.scn").find("fov_y = 40deg"), std::string::npos);
+}
+
 } // namespace scc::cli::test

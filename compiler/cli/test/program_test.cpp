@@ -179,6 +179,87 @@ TEST_F(BuiltProgram, ReportSaysWhatIsLeftOutAndWhatThatSaves) {
     EXPECT_EQ(scc({"build", "s.scn", "-o", "prog", "--report=xml"}).code, 2);
 }
 
+class BuiltProgramWithParameters : public BuiltProgram {
+protected:
+    void SetUp() override {
+        write("s.scn", "param r: number = 1 in 0.1..3 \"radius\"\nparam n: number = 100 in 1..1000\n"
+                       "param tint: color = rgb(0.8, 0.3, 0.2)\n"
+                       "for (i in 0..n) { sphere { center = (i, 2, 0), radius = r / 5 } }\n"
+                       "sphere { radius = r, material = phong { diffuse = fn(s: surface) = "
+                       "tint * (0.5 + 0.5 * sin(9 * s.p.x)) } }\n"
+                       "perspective_camera { eye = (0, 1, 7) }\npoint_light { position = (5, 4, 5) }\n");
+        const auto built = scc({"build", "s.scn", "-o", "prog", "-D", "n=80"});
+        ASSERT_TRUE(built.ok()) << built.err;
+    }
+    validation::ProcessResult draw(const std::vector<std::string>& definitions) {
+        std::vector<std::string> arguments{"-o", "native.pfm", "--size", "32x24"};
+        for (const std::string& definition : definitions) {
+            arguments.insert(arguments.end(), {"-D", definition});
+        }
+        return start(path("prog"), arguments);
+    }
+    void expect_as_rendered(const std::vector<std::string>& definitions) {
+        const auto drawn = draw(definitions);
+        ASSERT_TRUE(drawn.ok()) << drawn.err;
+        std::vector<std::string> arguments{"render", "s.scn", "-o", "generic.pfm", "--size", "32x24"};
+        for (const std::string& definition : definitions) {
+            arguments.insert(arguments.end(), {"-D", definition});
+        }
+        const auto rendered = scc(arguments);
+        ASSERT_TRUE(rendered.ok()) << rendered.err;
+        EXPECT_TRUE(read("native.pfm") == read("generic.pfm"));
+    }
+};
+
+TEST_F(BuiltProgramWithParameters, DrawsTheSceneWithOtherValues) {
+    expect_as_rendered({"n=80"});
+    expect_as_rendered({"r=2.5", "n=80"});
+    expect_as_rendered({"r=0.5", "n=700", "tint=rgb(0.1, 0.9, 0.4)"});
+    fs::remove(path("s.scn")); // it has all it needs
+    EXPECT_TRUE(draw({"r=2"}).ok());
+}
+
+TEST_F(BuiltProgramWithParameters, KeepsWhatItsSceneImports) {
+    fs::create_directory(folder() / "lights");
+    write("lights/studio.scn", "import \"../tint.scn\" as tint\nparam power: number = 1\n"
+                               "point_light { position = (5, 4, 5), color = power * tint.warm }\n");
+    write("tint.scn", "let warm = rgb(1, 0.8, 0.6)\n");
+    write("s.scn", "import \"lights/studio.scn\" as studio\nparam n: number = 1\nsphere { }\nstudio.scene\n"
+                   "perspective_camera { eye = (0, 1, 7) }\n");
+    ASSERT_TRUE(scc({"build", "s.scn", "-o", "prog"}).ok());
+    expect_as_rendered({"studio.power=0.5"});
+    fs::remove(path("s.scn"));
+    fs::remove_all(folder() / "lights");
+    EXPECT_TRUE(draw({"studio.power=0.7"}).ok());
+    EXPECT_TRUE(read("prog").find(folder().string()) == std::string::npos);
+}
+
+TEST_F(BuiltProgramWithParameters, SaysWhatIsWrongWithTheValues) {
+    const auto expect_refusal = [&](const std::string& definition, int code, const std::string& text) {
+        const auto drawn = draw({definition});
+        EXPECT_EQ(drawn.code, code) << drawn.err;
+        EXPECT_TRUE(has(drawn.err, text)) << drawn.err;
+        EXPECT_FALSE(exists("native.pfm"));
+    };
+    expect_refusal("r=5", 1, "-D r:1:1: error: the param `r` is 5; its range is 0.1..3 [value-out-of-range]");
+    expect_refusal("rr=1", 1, "the scene has no param of this name");
+    expect_refusal("tint=1", 1, "error: ");
+    expect_refusal("tint", 2, "`-D tint` is not name=value");
+    expect_refusal("n=3", 2, "with these values the scene needs other code");
+}
+
+TEST_F(BuiltProgramWithParameters, ListsThemInItsHelp) {
+    const auto help = start(path("prog"), {"--help"});
+    EXPECT_TRUE(help.ok());
+    EXPECT_TRUE(has(help.out, "  -D NAME=VALUE ")) << help.out;
+    EXPECT_TRUE(
+        has(help.out, "\nParameters:\n  r: number = 1 in 0.1..3  // radius\n  n: number = 100 in 1..1000\n"))
+        << help.out;
+    symbols(spheres_only);
+    EXPECT_FALSE(has(start(path("prog"), {"--help"}).out, "-D"));
+    EXPECT_EQ(draw({"r=1"}).code, 2);
+}
+
 class CodeCache : public BuiltProgram {
 protected:
     using Environment = std::vector<std::pair<std::string, std::string>>;

@@ -1,5 +1,6 @@
-#include "compiler/cli/pipeline.h"
+#include "compiler/pipeline.h"
 
+#include "compiler/file_importer.h"
 #include "compiler/lower.h"
 #include "compiler/passes/passes.h"
 #include "compiler/scene_checks.h"
@@ -17,13 +18,13 @@
 #include <iterator>
 #include <unistd.h>
 
-namespace scc::cli {
+namespace scc::compiler {
 
 namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uintmax_t largest_text_file = std::uintmax_t{1} << 30;
+constexpr std::uintmax_t largest_text_file = compiler::largest_scene_file;
 
 } // namespace
 
@@ -69,30 +70,51 @@ std::vector<lang::Definition> parse_definitions(const std::vector<std::string>& 
     return definitions;
 }
 
-compiler::LowerOptions lower_options(const SceneOptions& options,
-                                     const std::vector<lang::Definition>& definitions) {
-    compiler::LowerOptions result;
+AssetPolicy asset_policy(const SceneOptions& options, const std::vector<lang::Definition>& definitions) {
+    AssetPolicy policy;
+    policy.scene_folder = fs::path(options.file).parent_path();
+    policy.asset_paths.assign(options.asset_paths.begin(), options.asset_paths.end());
+    for (const lang::Definition& definition : definitions) {
+        policy.named_by_user.insert(definition.value);
+    }
+    return policy;
+}
+
+LowerOptions lower_options(const SceneOptions& options, const std::vector<lang::Definition>& definitions,
+                           const Loaded& loaded) {
+    LowerOptions result;
     result.name = fs::path(options.file).stem().string();
     result.camera = options.camera;
     result.keep_meshes = options.keep_meshes;
-    result.assets.scene_folder = fs::path(options.file).parent_path();
-    result.assets.asset_paths.assign(options.asset_paths.begin(), options.asset_paths.end());
-    for (const lang::Definition& definition : definitions) {
-        result.assets.named_by_user.insert(definition.value);
+    result.assets = asset_policy(options, definitions);
+    for (const lang::FileId file : loaded.module.imports) {
+        result.import_folders[file] = fs::path(loaded.sources.file(file).path()).parent_path();
     }
     return result;
 }
 
 // Of a scene that has mistakes, what has none is lowered for the mistakes that only show there. What depends
 // on the scene as a whole is not to be trusted: a camera or a light may be among what is left out.
-void lower_the_rest(Loaded& loaded, const compiler::LowerOptions& options) {
+void lower_the_rest(Loaded& loaded, const LowerOptions& options) {
     lang::Diagnostics found;
-    compiler::lower(loaded.module, options, found);
+    lower(loaded.module, options, found);
     for (const lang::Diagnostic& diagnostic : found.sorted()) {
         if (diagnostic.severity != lang::Severity::note && diagnostic.kind != lang::Diag::unknown_camera) {
             loaded.diagnostics.add(diagnostic);
         }
     }
+}
+
+std::string read_text(const SceneOptions& options, const std::string& path) {
+    return options.texts != nullptr ? options.texts->at(path) : read_text_file(path);
+}
+
+std::unique_ptr<lang::Importer> make_importer(const SceneOptions& options,
+                                              const std::vector<lang::Definition>& definitions) {
+    if (options.texts != nullptr) {
+        return std::make_unique<TextImporter>(*options.texts);
+    }
+    return std::make_unique<FileImporter>(asset_policy(options, definitions));
 }
 
 // Runs one stage and notes how long it took.
@@ -110,7 +132,7 @@ Loaded load(const SceneOptions& options, Stage last) {
     Loaded loaded;
     const std::vector<lang::Definition> definitions = parse_definitions(options.definitions);
     timed(loaded, "parse", [&] {
-        const lang::FileId file = loaded.sources.add(options.file, read_text_file(options.file));
+        const lang::FileId file = loaded.sources.add(options.file, read_text(options, options.file));
         if (last >= Stage::module) {
             loaded.tree = lang::read_file(loaded.sources, file, loaded.diagnostics);
             return;
@@ -125,23 +147,24 @@ Loaded load(const SceneOptions& options, Stage last) {
         return loaded;
     }
     timed(loaded, "check", [&] {
-        loaded.module = lang::check(loaded.tree, compiler::scene_schema(), definitions, loaded.sources,
-                                    loaded.diagnostics);
+        const std::unique_ptr<lang::Importer> importer = make_importer(options, definitions);
+        loaded.module = lang::check(loaded.tree, scene_schema(), definitions, loaded.sources,
+                                    loaded.diagnostics, {}, importer.get());
     });
     if (last < Stage::scene) {
         return loaded;
     }
     timed(loaded, "lower", [&] {
-        const compiler::LowerOptions lowering = lower_options(options, definitions);
+        const LowerOptions lowering = lower_options(options, definitions, loaded);
         if (loaded.diagnostics.has_errors()) {
             lower_the_rest(loaded, lowering);
         } else {
-            loaded.scene = compiler::lower(loaded.module, lowering, loaded.diagnostics);
-            compiler::check_scene(loaded.module, loaded.scene, loaded.diagnostics);
+            loaded.scene = lower(loaded.module, lowering, loaded.diagnostics);
+            check_scene(loaded.module, loaded.scene, loaded.diagnostics);
         }
     });
     if (!loaded.diagnostics.has_errors()) {
-        timed(loaded, "passes", [&] { compiler::run_passes(loaded.scene); });
+        timed(loaded, "passes", [&] { run_passes(loaded.scene); });
     }
     return loaded;
 }
@@ -165,4 +188,13 @@ bool report(const Loaded& loaded) {
     return !loaded.diagnostics.has_errors();
 }
 
-} // namespace scc::cli
+std::string described(const lang::Param& param) {
+    std::string text = fmt::format("{}: {} = {}", param.name, lang::to_string(param.type),
+                                   lang::to_string(param.default_value));
+    if (param.range) {
+        text += fmt::format(" in {}..{}", param.range->first, param.range->second);
+    }
+    return text + (param.text.empty() ? "" : fmt::format("  // {}", param.text));
+}
+
+} // namespace scc::compiler

@@ -6,12 +6,14 @@
 #include "lang/diagnostic.h"
 #include "lang/lexer.h"
 
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-namespace scc::cli {
+namespace scc::compiler {
 
 /// What the commands that read a scene have in common.
 struct SceneOptions {
@@ -20,6 +22,8 @@ struct SceneOptions {
     std::vector<std::string> asset_paths;
     std::string camera;
     bool keep_meshes = true; ///< in the user's cache
+    /// Null, or the texts of all files of the scene, which then are not read.
+    const std::map<std::string, std::string>* texts = nullptr;
 };
 
 /// A scene on its way through the stages; each stage is run by `load` as far as it was asked to.
@@ -29,7 +33,7 @@ struct Loaded {
     std::vector<lang::Token> tokens;
     std::shared_ptr<const lang::ast::File> tree;
     lang::Module module;
-    compiler::ir::Scene scene;
+    ir::Scene scene;
     std::vector<std::pair<std::string, double>> times_ms;
 };
 
@@ -46,4 +50,7 @@ Loaded load(const SceneOptions& options, Stage last);
 /// were none.
 bool report(const Loaded& loaded);
 
-} // namespace scc::cli
+/// As `scc params` lists it, in a line.
+std::string described(const lang::Param& param);
+
+} // namespace scc::compiler
