@@ -8,6 +8,10 @@
 
 namespace scc::compiler {
 
+/// Of a solid's tree from a node on, in world space: not finite where its members do not bound it, inside out
+/// where there is nothing in it.
+runtime::Bounds<double> solid_bounds(const ir::Scene& scene, std::size_t node);
+
 /// In object space; none for unbounded shapes.
 template <class Shape>
 std::optional<runtime::Bounds<double>> object_bounds(const Shape& shape, const ir::Scene& scene) {
@@ -15,6 +19,8 @@ std::optional<runtime::Bounds<double>> object_bounds(const Shape& shape, const i
         return std::nullopt;
     } else if constexpr (std::is_same_v<Shape, runtime::Mesh<double>>) {
         return scene.meshes[shape.mesh].box;
+    } else if constexpr (std::is_same_v<Shape, runtime::Csg<double>>) {
+        return solid_bounds(scene, shape.root);
     } else {
         return shape.bounds();
     }

@@ -1,5 +1,7 @@
 #include "compiler/lower.h"
 
+#include "compiler/bounds.h"
+#include "compiler/ir/objects.h"
 #include "compiler/lower_material.h"
 #include "compiler/lower_view.h"
 #include "compiler/mesh_cache.h"
@@ -28,6 +30,9 @@ namespace {
 
 /// Groups share what they hold, so a few lines can stand for more objects than any memory has.
 constexpr std::size_t most_objects = 20'000'000;
+
+/// The kernels and the exporters go down a solid's tree by recursion.
+constexpr int deepest_solid = 256;
 
 // ---- shapes from their own descriptions ----------------------------------------------------------------
 
@@ -78,6 +83,22 @@ public:
 private:
     void add(const Thing& thing, const std::string& path, const Affine<double>& world_from_parent,
              const Thing* inherited_material);
+    template <class Each>
+    void for_each_sibling(const lang::ThingPtr& thing, Numbering& numbering, Each each);
+    void add_solid(const Thing& thing, const std::string& path, const Affine<double>& world_from_parent,
+                   const Thing* inherited_material);
+    /// Where an operand of a solid stands.
+    struct Operand {
+        const std::string& path;
+        const Affine<double>& world_from_parent;
+        const Thing* inherited_material;
+        std::string_view solid; ///< the author's word for what it is an operand of
+        bool inverted;
+        int depth;
+    };
+    bool add_operand(const Thing& thing, const Operand& here);
+    bool add_operation(const Thing& thing, runtime::CsgOp op, const Operand& here);
+    bool add_member(const Thing& thing, const Operand& here);
     bool can_be_array(const lang::ThingRows& rows) const;
     void add_array(const lang::ThingRows& rows, Numbering& numbering, const Affine<double>& world_from_parent,
                    const Thing* inherited_material);
@@ -267,8 +288,7 @@ bool is_singular(const Affine<double>& a) {
     return !(volume > 1e-14 * length(x) * length(y) * length(z)) || !std::isfinite(volume);
 }
 
-void ObjectLowering::add_all(const std::vector<lang::ThingPtr>& siblings, const std::string& parent_path,
-                             const Affine<double>& world_from_parent, const Thing* inherited_material) {
+Numbering number_siblings(const std::vector<lang::ThingPtr>& siblings, const std::string& parent_path) {
     Numbering numbering{parent_path, {}, {}};
     for (const lang::ThingPtr& thing : siblings) {
         if (thing->rows) {
@@ -279,22 +299,38 @@ void ObjectLowering::add_all(const std::vector<lang::ThingPtr>& siblings, const 
             ++numbering.total[own_name(*thing)];
         }
     }
+    return numbering;
+}
+
+void ObjectLowering::add_all(const std::vector<lang::ThingPtr>& siblings, const std::string& parent_path,
+                             const Affine<double>& world_from_parent, const Thing* inherited_material) {
+    Numbering numbering = number_siblings(siblings, parent_path);
     for (const lang::ThingPtr& thing : siblings) {
         if (thing->constructor->type != lang::TypeKind::shape || full_) {
             continue;
         }
-        if (!thing->rows) {
-            add(*thing, next_path(numbering, *thing), world_from_parent, inherited_material);
-        } else if (can_be_array(*thing->rows)) {
+        if (thing->rows && can_be_array(*thing->rows)) {
             add_array(*thing->rows, numbering, world_from_parent, inherited_material);
-        } else {
-            for (std::size_t i = 0; i < count_of(*thing) && !full_; ++i) {
-                const std::size_t in_round = thing->rows->things.size();
-                taken_apart_.push_back(thing->rows->thing(i % in_round, i / in_round));
-                const Thing& one = *taken_apart_.back();
-                add(one, next_path(numbering, one), world_from_parent, inherited_material);
-            }
+            continue;
         }
+        for_each_sibling(thing, numbering, [&](const Thing& one, const std::string& path) {
+            add(one, path, world_from_parent, inherited_material);
+        });
+    }
+}
+
+/// Calls `each(thing, its path)` with the thing, or with every one that its rows stand for.
+template <class Each>
+void ObjectLowering::for_each_sibling(const lang::ThingPtr& thing, Numbering& numbering, Each each) {
+    if (!thing->rows) {
+        each(*thing, next_path(numbering, *thing));
+        return;
+    }
+    for (std::size_t i = 0; i < count_of(*thing) && !full_; ++i) {
+        const std::size_t in_round = thing->rows->things.size();
+        taken_apart_.push_back(thing->rows->thing(i % in_round, i / in_round));
+        const Thing& one = *taken_apart_.back();
+        each(one, next_path(numbering, one));
     }
 }
 
@@ -326,6 +362,16 @@ bool ObjectLowering::has_room(std::size_t more, const Thing& thing) {
     return !full_;
 }
 
+std::optional<runtime::CsgOp> csg_op(const Thing& thing) {
+    for (const runtime::CsgOp op :
+         {runtime::CsgOp::unite, runtime::CsgOp::intersect, runtime::CsgOp::subtract}) {
+        if (thing.constructor->name == ir::csg_word(op)) {
+            return op;
+        }
+    }
+    return std::nullopt;
+}
+
 void ObjectLowering::add(const Thing& thing, const std::string& path, const Affine<double>& world_from_parent,
                          const Thing* inherited_material) {
     const auto place = place_of_thing(thing, path, world_from_parent);
@@ -337,6 +383,10 @@ void ObjectLowering::add(const Thing& thing, const std::string& path, const Affi
     if (!has_room(1, thing)) {
         return;
     }
+    if (csg_op(thing)) {
+        add_solid(thing, path, *place, material);
+        return;
+    }
     if (thing.constructor->takes_children) {
         add_all(thing.children, path + "/", *place, material);
         return;
@@ -346,6 +396,118 @@ void ObjectLowering::add(const Thing& thing, const std::string& path, const Affi
         scene_.objects.push_back(
             {*shape, *place, materials_.sides(material, path), unique_path(path), thing.span});
     }
+}
+
+// ---- solids
+// ------------------------------------------------------------------------------------------------
+
+/// `world_from_parent` and the material are the thing's own already.
+void ObjectLowering::add_solid(const Thing& thing, const std::string& path,
+                               const Affine<double>& world_from_parent, const Thing* inherited_material) {
+    const std::string_view word = thing.constructor->name;
+    const auto root = static_cast<std::uint32_t>(scene_.csg_nodes.size());
+    const std::size_t members = scene_.members.size();
+    const bool sound =
+        add_operation(thing, *csg_op(thing), {path, world_from_parent, inherited_material, word, false, 1});
+    const auto take_back = [&] {
+        scene_.csg_nodes.resize(root);
+        scene_.members.resize(members);
+    };
+    if (!sound) {
+        take_back();
+        return;
+    }
+    const runtime::Bounds<double> box =
+        scene_.csg_nodes.size() == root ? runtime::Bounds<double>{} : solid_bounds(scene_, root);
+    const Vec3<double> size = box.max - box.min;
+    if (!(size.x >= 0 && size.y >= 0 && size.z >= 0)) {
+        diagnostics_.report(Diag::empty_solid, thing.span, word);
+        take_back();
+        return;
+    }
+    if (!std::isfinite(size.x + size.y + size.z)) {
+        diagnostics_.report(Diag::unbounded_solid, thing.span, word);
+        take_back();
+        return;
+    }
+    ++count_;
+    scene_.objects.push_back(
+        {runtime::Csg<double>{root}, {}, scene_.members[members].sides, unique_path(path), thing.span});
+}
+
+/// Appends a subtree, or nothing where it is empty; false where something in it is wrong, which is reported.
+bool ObjectLowering::add_operation(const Thing& thing, runtime::CsgOp op, const Operand& here) {
+    if (here.depth > deepest_solid) {
+        diagnostics_.report(Diag::deep_solid, thing.span, deepest_solid);
+        return false;
+    }
+    const std::size_t root = scene_.csg_nodes.size();
+    scene_.csg_nodes.push_back({op});
+    const std::string parent_path = here.path + "/";
+    Numbering numbering = number_siblings(thing.children, parent_path);
+    const std::size_t members = scene_.members.size();
+    std::size_t operands = 0;
+    bool sound = true, empty = true;
+    for (const lang::ThingPtr& child : thing.children) {
+        if (child->constructor->type != lang::TypeKind::shape) {
+            continue;
+        }
+        for_each_sibling(child, numbering, [&](const Thing& one, const std::string& path) {
+            const bool removed = op == runtime::CsgOp::subtract && operands > 0;
+            const std::size_t before = scene_.csg_nodes.size();
+            sound &= add_operand(one, {path, here.world_from_parent, here.inherited_material, here.solid,
+                                       here.inverted != removed, here.depth + 1});
+            const bool nothing = scene_.csg_nodes.size() == before;
+            empty = operands++ == 0                   ? nothing
+                    : op == runtime::CsgOp::unite     ? empty && nothing
+                    : op == runtime::CsgOp::intersect ? empty || nothing
+                                                      : empty;
+        });
+    }
+    scene_.csg_nodes[root].size = static_cast<std::uint32_t>(scene_.csg_nodes.size() - root);
+    if (empty) {
+        scene_.csg_nodes.resize(root);
+        scene_.members.resize(members);
+    }
+    return sound && !full_;
+}
+
+bool ObjectLowering::add_operand(const Thing& thing, const Operand& here) {
+    const auto place = place_of_thing(thing, here.path, here.world_from_parent);
+    if (!place || !has_room(1, thing)) {
+        return false;
+    }
+    const lang::FieldValue* own = thing.find("material");
+    const Thing* material = own != nullptr ? to_thing(own->value).get() : here.inherited_material;
+    const auto op = csg_op(thing);
+    const Operand within{here.path,     *place,    material, op ? thing.constructor->name : here.solid,
+                         here.inverted, here.depth};
+    return thing.constructor->takes_children
+               ? add_operation(thing, op.value_or(runtime::CsgOp::unite), within)
+               : add_member(thing, within);
+}
+
+bool ObjectLowering::add_member(const Thing& thing, const Operand& here) {
+    if (thing.constructor->name == runtime::Mesh<double>::name) {
+        diagnostics_.report(Diag::unsupported_setting, thing.span, fmt::format("a mesh in a {}", here.solid));
+        return false;
+    }
+    const std::optional<ir::Shape> shape = make_shape(thing);
+    if (!shape) {
+        return false;
+    }
+    if (const std::string_view open = open_part(*shape); !open.empty()) {
+        diagnostics_.report(Diag::open_solid, place_of(thing, "caps"),
+                            fmt::format("this {} {}", thing.constructor->name, open), here.solid);
+        return false;
+    }
+    ++count_;
+    scene_.csg_nodes.push_back(
+        {runtime::CsgOp::member, 1, static_cast<std::uint32_t>(scene_.members.size()), here.inverted});
+    scene_.members.push_back({*shape, here.world_from_parent,
+                              materials_.sides(here.inherited_material, here.path), unique_path(here.path),
+                              thing.span});
+    return true;
 }
 
 // ---- arrays

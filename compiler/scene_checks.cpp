@@ -1,6 +1,7 @@
 #include "compiler/scene_checks.h"
 
 #include "compiler/bounds.h"
+#include "compiler/coincident_faces.h"
 #include "compiler/ir/objects.h"
 #include "compiler/values.h"
 #include "lang/schema.h"
@@ -162,6 +163,7 @@ void check_distance(const ir::Scene& scene, lang::Diagnostics& diagnostics) {
 void check_scene(const lang::Module& module, const ir::Scene& scene, lang::Diagnostics& diagnostics) {
     check_depth(module, scene, diagnostics);
     check_distance(scene, diagnostics);
+    check_coincident_faces(scene, diagnostics);
 }
 
 } // namespace scc::compiler

@@ -154,13 +154,22 @@ Constructor mesh() {
     return row;
 }
 
-Constructor group() {
-    Constructor row{.name = "group",
-                    .type = TypeKind::shape,
-                    .takes_children = true,
-                    .doc = "shapes that share a transform and a material"};
+Constructor with_children(std::string_view name, std::string_view doc) {
+    Constructor row{.name = name, .type = TypeKind::shape, .takes_children = true, .doc = doc};
     add_shape_fields(row);
     return row;
+}
+Constructor group() {
+    return with_children("group", "shapes that share a transform and a material");
+}
+Constructor unite() {
+    return with_children("union", "a solid: what is in one of the closed shapes");
+}
+Constructor intersection() {
+    return with_children("intersection", "a solid: what is in all of the closed shapes");
+}
+Constructor difference() {
+    return with_children("difference", "a solid: what is in the first closed shape and in no other");
 }
 
 Field color(std::string_view name, std::optional<Value> value, std::string_view doc, bool per_point = false) {
@@ -410,21 +419,12 @@ Constructor raster() {
 // The language's other words: known, so that a scene that uses one is told the truth.
 void add_unsupported(std::vector<Constructor>& rows) {
     const std::pair<std::string_view, TypeKind> words[] = {
-        {"torus", TypeKind::shape},
-        {"quadric", TypeKind::shape},
-        {"heightfield", TypeKind::shape},
-        {"implicit", TypeKind::shape},
-        {"polyline", TypeKind::shape},
-        {"union", TypeKind::shape},
-        {"intersection", TypeKind::shape},
-        {"difference", TypeKind::shape},
-        {"spherical_camera", TypeKind::camera},
-        {"spot_light", TypeKind::light},
-        {"rectangle_light", TypeKind::light},
-        {"sky_light", TypeKind::light},
-        {"glass", TypeKind::material},
-        {"pbr", TypeKind::material},
-        {"image", TypeKind::image},
+        {"torus", TypeKind::shape},       {"quadric", TypeKind::shape},
+        {"heightfield", TypeKind::shape}, {"implicit", TypeKind::shape},
+        {"polyline", TypeKind::shape},    {"spherical_camera", TypeKind::camera},
+        {"spot_light", TypeKind::light},  {"rectangle_light", TypeKind::light},
+        {"sky_light", TypeKind::light},   {"glass", TypeKind::material},
+        {"pbr", TypeKind::material},      {"image", TypeKind::image},
     };
     for (const auto& [name, type] : words) {
         rows.push_back({.name = name, .type = type, .supported = false, .doc = "not supported yet"});
@@ -461,8 +461,9 @@ void add_docs(std::vector<Constructor>& rows) {
 lang::Schema make_schema() {
     lang::Schema schema;
     add_shapes(schema.constructors, runtime::Shapes<double>{});
-    for (auto make : {mesh, group, phong, two_sided, point_light, directional_light, perspective_camera,
-                      orthographic_camera, world, render, ray, raster}) {
+    for (auto make :
+         {mesh, group, unite, intersection, difference, phong, two_sided, point_light, directional_light,
+          perspective_camera, orthographic_camera, world, render, ray, raster}) {
         schema.constructors.push_back(make());
     }
     add_docs(schema.constructors);

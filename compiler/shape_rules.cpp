@@ -1,6 +1,7 @@
 #include "compiler/shape_rules.h"
 
 #include "runtime/math/vec.h"
+#include "runtime/primitive.h"
 
 namespace scc::compiler {
 
@@ -51,10 +52,27 @@ std::string_view rule(const runtime::Mesh<double>&) {
     return "";
 }
 
+std::string_view rule(const runtime::Csg<double>&) {
+    return "";
+}
+
+template <class Shape>
+std::string_view gap(const Shape& shape) {
+    if constexpr (requires { shape.caps; }) {
+        return shape.caps ? "" : "has no caps";
+    } else {
+        return runtime::is_solid<Shape> ? "" : "has no inside";
+    }
+}
+
 } // namespace
 
 std::string_view problem(const ir::Shape& shape) {
     return std::visit([](const auto& s) { return rule(s); }, shape);
+}
+
+std::string_view open_part(const ir::Shape& shape) {
+    return std::visit([](const auto& s) { return gap(s); }, shape);
 }
 
 } // namespace scc::compiler

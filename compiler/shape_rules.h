@@ -10,4 +10,7 @@ namespace scc::compiler {
 /// fine.
 std::string_view problem(const ir::Shape& shape);
 
+/// Why a shape cannot be a part of a solid. Empty if it can.
+std::string_view open_part(const ir::Shape& shape);
+
 } // namespace scc::compiler

@@ -13,9 +13,70 @@ inline constexpr bool is_mesh = requires(const Shape& s) {
     s.mesh;
 };
 template <class Shape>
-inline constexpr bool is_bounded = is_mesh<Shape> || requires(const Shape& s) {
+inline constexpr bool is_csg = requires(const Shape& s) {
+    s.root;
+};
+template <class Shape>
+inline constexpr bool is_bounded = is_mesh<Shape> || is_csg<Shape> || requires(const Shape& s) {
     s.bounds();
 };
+/// Whether it can be a member of solids made of others.
+template <class Shape>
+inline constexpr bool is_solid = requires(const Shape& s, const Ray<double>& ray) {
+    s.stretch(ray);
+};
+
+/// f.operator()<kind>() for each kind that the scene's solids can have members of, until it returns true;
+/// whether it did.
+template <class S, class F>
+bool any_of_member_kinds(F&& f) {
+    const auto one = [&]<std::uint32_t kind>(std::integral_constant<std::uint32_t, kind>) {
+        if constexpr (uses_member_kind(S::traits, kind) && is_solid<ShapeOfKind<typename S::Real, kind>>) {
+            return f.template operator()<kind>();
+        } else {
+            return false;
+        }
+    };
+    return [&]<std::uint32_t... kind>(std::integer_sequence<std::uint32_t, kind...>) {
+        return (one(std::integral_constant<std::uint32_t, kind>{}) || ...);
+    }
+    (std::make_integer_sequence<std::uint32_t, primitive_kinds>{});
+}
+
+/// f(member) with the one that the reference names.
+template <class S, class F>
+void visit_member(const S& scene, const PrimitiveRef& ref, F&& f) {
+    any_of_member_kinds<S>([&]<std::uint32_t kind>() {
+        if (kind != ref.kind) {
+            return false;
+        }
+        f(scene.members(Of<PrimitiveOfKind<typename S::Real, kind>>{})[ref.index]);
+        return true;
+    });
+}
+
+/// A box around a solid from its members' boxes; box_of(node) gives one's. Not finite where the members do
+/// not bound the solid, inside out where it is empty.
+template <class R, class Nodes, class BoxOf>
+Bounds<R> csg_bounds(const Nodes& nodes, std::size_t at, const BoxOf& box_of) {
+    const auto& node = nodes[at];
+    if (node.op == CsgOp::member) {
+        return box_of(node);
+    }
+    Bounds<R> result;
+    for (std::size_t child = at + 1; child < at + node.size; child += nodes[child].size) {
+        if (child > at + 1 && node.op == CsgOp::subtract) {
+            break;
+        }
+        const Bounds<R> box = csg_bounds<R>(nodes, child, box_of);
+        if (child == at + 1 || node.op == CsgOp::unite) {
+            result.add(box);
+        } else {
+            result = {maximum(result.min, box.min), minimum(result.max, box.max)};
+        }
+    }
+    return result;
+}
 
 /// f.operator()<kind>(primitive, its index in the table of its kind) for the bounded ones, kind by kind.
 template <class S, class F>
@@ -82,6 +143,36 @@ Bounds<typename S::Real> shape_bounds(const S& scene, const Shape& shape) {
     }
 }
 
+/// Of a member.
+template <class S, class Shape>
+Bounds<typename S::Real> member_bounds(const S& scene, const Bare<Shape>& primitive) {
+    if constexpr (requires { primitive.shape.half_space_bounds(); }) {
+        return primitive.shape.half_space_bounds();
+    } else {
+        return shape_bounds(scene, primitive.shape);
+    }
+}
+template <class S, class Shape, class R>
+Bounds<R> member_bounds(const S& scene, const Placed<Shape, R>& primitive) {
+    if constexpr (requires { primitive.shape.half_space_bounds(); }) {
+        const Vec3<R> all{infinity<R>(), infinity<R>(), infinity<R>()};
+        return {-all, all};
+    } else {
+        return transform_bounds(primitive.world_from_object, shape_bounds(scene, primitive.shape));
+    }
+}
+
+template <class S>
+Bounds<typename S::Real> solid_bounds(const S& scene, std::uint32_t root) {
+    using R = typename S::Real;
+    return csg_bounds<R>(scene.csg_nodes, root, [&](const CsgNode& node) {
+        Bounds<R> box;
+        visit_member(scene, node.member,
+                     [&](const auto& member) { box = member_bounds(scene, member.primitive); });
+        return box;
+    });
+}
+
 } // namespace detail
 
 /// The rays as the primitive's shape sees them.
@@ -114,11 +205,19 @@ Surface<L> surface_of(const S& scene, const Placed<Shape, R>& primitive, const R
 
 template <class S, class Shape>
 Bounds<typename S::Real> bounds_of(const S& scene, const Bare<Shape>& primitive) {
-    return detail::shape_bounds(scene, primitive.shape);
+    if constexpr (is_csg<Shape>) {
+        return detail::solid_bounds(scene, primitive.shape.root);
+    } else {
+        return detail::shape_bounds(scene, primitive.shape);
+    }
 }
 template <class S, class Shape, class R>
 Bounds<R> bounds_of(const S& scene, const Placed<Shape, R>& primitive) {
-    return transform_bounds(primitive.world_from_object, detail::shape_bounds(scene, primitive.shape));
+    if constexpr (is_csg<Shape>) {
+        return detail::solid_bounds(scene, primitive.shape.root); // solids are bare
+    } else {
+        return transform_bounds(primitive.world_from_object, detail::shape_bounds(scene, primitive.shape));
+    }
 }
 
 } // namespace scc::runtime

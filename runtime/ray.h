@@ -29,6 +29,12 @@ struct ShapeHit {
     IndexOf<L> part{};
 };
 
+/// The t from `near` to `far`; none where near > far or one of them is not a number.
+template <class L>
+struct Stretch {
+    L near, far;
+};
+
 /// A hit in detail, in one space. `error` bounds, per component, how far `point` may be from the surface and
 /// from where the shape's `intersect` will find it to be when a ray starts there; at least 2 roundings of
 /// `point` itself.
@@ -39,6 +45,12 @@ struct Surface {
     Vec3<L> normal;         ///< geometric, unit
     Vec3<L> shading_normal; ///< unit
 };
+
+/// The same place seen as the boundary of what is on its other side.
+template <class L>
+constexpr Surface<L> turned_over(const Surface<L>& s) {
+    return {s.point, s.error, -s.normal, -s.shading_normal};
+}
 
 /// Half the distance from 1 to the next number: one operation's relative error.
 template <class L>

@@ -2,6 +2,8 @@
 
 #include "runtime/accel/beam.h"
 #include "runtime/accel/view.h"
+#include "runtime/csg.h"
+#include "runtime/hit.h"
 #include "runtime/primitive.h"
 
 #include <array>
@@ -11,32 +13,6 @@
 
 /// Closest and any hit of a ray in a scene (L11, L14).
 namespace scc::runtime {
-
-inline constexpr std::uint32_t no_kind = ~0U;
-
-template <class L>
-struct Hit {
-    ShapeHit<L> shape;
-    IndexOf<L> kind{no_kind};
-    IndexOf<L> index{0U}; ///< in the table of its kind
-    IndexOf<L> id{~0U};   ///< Tag::id
-};
-
-template <class L>
-Hit<RealOf<L>> lane(const Hit<L>& hit, int i) {
-    return {{lane(hit.shape.t, i), lane(hit.shape.part, i)},
-            lane(hit.kind, i),
-            lane(hit.index, i),
-            lane(hit.id, i)};
-}
-template <class L>
-void set_lane(Hit<L>& hit, int i, const Hit<RealOf<L>>& value) {
-    set_lane(hit.shape.t, i, value.shape.t);
-    set_lane(hit.shape.part, i, value.shape.part);
-    set_lane(hit.kind, i, value.kind);
-    set_lane(hit.index, i, value.index);
-    set_lane(hit.id, i, value.id);
-}
 
 namespace detail {
 
@@ -117,23 +93,38 @@ bool any_of_kinds(F&& f) {
     (std::make_integer_sequence<std::uint32_t, primitive_kinds>{});
 }
 
+/// The same for the kinds whose surfaces a ray can meet: members of solids are met instead of the solids.
+template <class S, class F>
+void any_of_surface_kinds(F&& f) {
+    const auto one = [&]<std::uint32_t kind>(std::integral_constant<std::uint32_t, kind>) {
+        using Shape = ShapeOfKind<typename S::Real, kind>;
+        if constexpr (!is_csg<Shape> && (uses_kind(S::traits, kind) ||
+                                         (uses_member_kind(S::traits, kind) && is_solid<Shape>))) {
+            return f.template operator()<kind>();
+        } else {
+            return false;
+        }
+    };
+    [&]<std::uint32_t... kind>(std::integer_sequence<std::uint32_t, kind...>) {
+        (one(std::integral_constant<std::uint32_t, kind>{}) || ...);
+    }
+    (std::make_integer_sequence<std::uint32_t, primitive_kinds>{});
+}
+
 /// Keeps a found hit if it is the nearest so far; whether it was in any lane.
 template <class L>
-bool keep_nearest(Ray<L>& ray, Hit<L>& hit, const ShapeHit<L>& found, std::uint32_t kind, std::uint32_t index,
-                  std::uint32_t tag_id) {
-    using Index = IndexOf<L>;
-    const Index id(tag_id);
-    const MaskOf<L> nearer =
-        (found.t < ray.t_max) | ((found.t == ray.t_max) & (found.t < infinity<L>()) & (id < hit.id));
+bool keep_nearest(Ray<L>& ray, Hit<L>& hit, const Hit<L>& found) {
+    const L& t = found.shape.t;
+    const MaskOf<L> nearer = (t < ray.t_max) | ((t == ray.t_max) & (t < infinity<L>()) & (found.id < hit.id));
     if (none(nearer)) {
         return false;
     }
-    ray.t_max = choose(nearer, found.t, ray.t_max);
-    hit.shape.t = choose(nearer, found.t, hit.shape.t);
-    hit.shape.part = choose(nearer, found.part, hit.shape.part);
-    hit.kind = choose(nearer, Index(kind), hit.kind);
-    hit.index = choose(nearer, Index(index), hit.index);
-    hit.id = choose(nearer, id, hit.id);
+    ray.t_max = choose(nearer, t, ray.t_max);
+    hit.shape.t = choose(nearer, t, hit.shape.t);
+    hit.shape.part = choose(nearer, found.shape.part, hit.shape.part);
+    hit.kind = choose(nearer, found.kind, hit.kind);
+    hit.index = choose(nearer, found.index, hit.index);
+    hit.id = choose(nearer, found.id, hit.id);
     return true;
 }
 template <class L>
@@ -147,6 +138,33 @@ bool keep_blocked(Ray<L>& ray, MaskOf<L>& blocked, const ShapeHit<L>& found) {
     return true;
 }
 
+template <class L>
+Hit<L> hit_of(const ShapeHit<L>& found, std::uint32_t kind, std::uint32_t index, std::uint32_t id) {
+    using Index = IndexOf<L>;
+    return {found, Index(kind), Index(index), Index(id)};
+}
+
+/// Where the rays meet a primitive other than a mesh: a ShapeHit for any hit, else a Hit.
+template <bool AnyHit, std::uint32_t kind, class S, class L>
+auto find_hit(const S& scene, const PrimitiveOfKind<typename S::Real, kind>& primitive,
+              [[maybe_unused]] std::uint32_t index, const Ray<L>& ray) {
+    if constexpr (is_csg<ShapeOfKind<typename S::Real, kind>>) {
+        const Hit<L> found = intersect_solid<AnyHit>(scene, primitive.shape.root, ray);
+        if constexpr (AnyHit) {
+            return found.shape;
+        } else {
+            return found;
+        }
+    } else {
+        const ShapeHit<L> found = primitive.shape.intersect(to_object(primitive, ray));
+        if constexpr (AnyHit) {
+            return found;
+        } else {
+            return hit_of(found, kind, index, primitive.tag.id);
+        }
+    }
+}
+
 /// The search of one pack through a scene without hierarchies: by value, so that what is known stays in
 /// registers. Where all primitives are candidates, their tests are unrolled.
 template <bool AnyHit, bool All, class S, class L>
@@ -155,11 +173,11 @@ auto search_tables(const S& scene, Ray<L> ray, [[maybe_unused]] Candidates candi
     any_of_kinds<S>([&]<std::uint32_t kind>() {
         const auto& table = scene.primitives(Of<PrimitiveOfKind<typename S::Real, kind>>{});
         const auto test = [&](const auto& primitive, [[maybe_unused]] std::uint32_t index) {
-            const ShapeHit<L> found = primitive.shape.intersect(to_object(primitive, ray));
+            const auto found = find_hit<AnyHit, kind>(scene, primitive, index, ray);
             if constexpr (AnyHit) {
                 return keep_blocked(ray, result, found) && none(is_active(ray));
             } else {
-                keep_nearest(ray, result, found, kind, index, primitive.tag.id);
+                keep_nearest(ray, result, found);
                 return false;
             }
         };
@@ -360,12 +378,11 @@ private:
         if constexpr (is_mesh<ShapeOfKind<R, kind>>) {
             test_mesh<kind>(primitive, index, packs);
         } else if constexpr (N == 1) {
-            keep<kind>(0, primitive.shape.intersect(to_object(primitive, rays_[0])), primitive.tag.id, index);
+            keep(0, find_hit<AnyHit, kind>(scene_, primitive, index, rays_[0]));
         } else {
             for (packs &= live_; packs != 0; packs &= packs - 1) {
                 const auto i = static_cast<std::size_t>(__builtin_ctz(packs));
-                keep<kind>(i, primitive.shape.intersect(to_object(primitive, rays_[i])), primitive.tag.id,
-                           index);
+                keep(i, find_hit<AnyHit, kind>(scene_, primitive, index, rays_[i]));
             }
         }
         if constexpr (!AnyHit) {
@@ -392,13 +409,15 @@ private:
         intersect_mesh<AnyHit, L>(scene_.meshes[primitive.shape.mesh], {rays.data(), count}, apex_,
                                   {found.data(), count});
         for (std::size_t i = 0; i < count; ++i) {
-            keep<kind>(from[i], found[i], primitive.tag.id, index);
+            if constexpr (AnyHit) {
+                keep(from[i], found[i]);
+            } else {
+                keep(from[i], hit_of(found[i], kind, index, primitive.tag.id));
+            }
         }
     }
 
-    template <std::uint32_t kind>
-    void keep(std::size_t pack, const ShapeHit<L>& found, [[maybe_unused]] std::uint32_t tag_id,
-              [[maybe_unused]] std::uint32_t index) {
+    void keep(std::size_t pack, const std::conditional_t<AnyHit, ShapeHit<L>, Hit<L>>& found) {
         Ray<L>& ray = rays_[pack];
         bool kept = false;
         if constexpr (AnyHit) {
@@ -407,7 +426,7 @@ private:
                 live_ &= ~((kept && none(is_active(ray)) ? 1U : 0U) << pack);
             }
         } else {
-            kept = keep_nearest(ray, results_[pack], found, kind, index, tag_id);
+            kept = keep_nearest(ray, results_[pack], found);
         }
         if (!kept) {
             return;
@@ -490,21 +509,36 @@ MaskOf<L> any_hit(const S& scene, Ray<L> ray) {
     return blocked;
 }
 
-/// f(primitive, lanes) for each primitive that one of the lanes in `among` has hit, with those lanes.
+/// f(primitive, lanes, inverted) for each primitive that one of the lanes in `among` has hit, with those
+/// lanes. `inverted`: the primitive's outside is the inside of the solid that it is a member of.
 template <SceneModel S, class L, class F>
 void for_each_primitive(const S& scene, const Hit<L>& hit, MaskOf<L> among, F&& f) {
     using Index = IndexOf<L>;
+    using R = typename S::Real;
     while (any(among)) {
         const int first = first_lane(among);
         const std::uint32_t hit_kind = lane(hit.kind, first), index = lane(hit.index, first);
         const MaskOf<L> same = among & (hit.kind == Index(hit_kind)) & (hit.index == Index(index));
-        detail::any_of_kinds<S>([&]<std::uint32_t kind>() {
-            if (kind != hit_kind) {
-                return false;
+        const auto visit = [&]<std::uint32_t kind>() {
+            using Primitive = PrimitiveOfKind<R, kind>;
+            if constexpr (uses_csg(S::traits)) {
+                // Only one call each, since much is inlined into it.
+                if (kind == hit_kind % member_kinds) {
+                    const bool is_member = hit_kind >= member_kinds;
+                    const Member<Primitive>* member =
+                        is_member ? &scene.members(Of<Primitive>{})[index] : nullptr;
+                    const Primitive& primitive =
+                        is_member ? member->primitive : scene.primitives(Of<Primitive>{})[index];
+                    f(primitive, same, is_member && member->inverted);
+                    return true;
+                }
+            } else if (kind == hit_kind) {
+                f(scene.primitives(Of<Primitive>{})[index], same, std::false_type{});
+                return true;
             }
-            f(scene.primitives(Of<PrimitiveOfKind<typename S::Real, kind>>{})[index], same);
-            return true;
-        });
+            return false;
+        };
+        detail::any_of_surface_kinds<S>(visit);
         among = among & !same;
     }
 }

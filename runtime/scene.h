@@ -24,8 +24,10 @@ namespace scc::runtime {
 /// What a scene needs. A kernel compiled for a scene contains nothing else; the generic renderer uses
 /// `everything`.
 struct SceneTraits {
-    std::uint32_t bare_shapes = 0;   ///< bit per row of Shapes: present without a transform
-    std::uint32_t placed_shapes = 0; ///< bit per row of Shapes: present with a transform
+    std::uint32_t bare_shapes = 0;    ///< bit per row of Shapes: present without a transform
+    std::uint32_t placed_shapes = 0;  ///< bit per row of Shapes: present with a transform
+    std::uint32_t bare_members = 0;   ///< the same for members of solids
+    std::uint32_t placed_members = 0; ///< the same for members of solids
     bool point_lights = false;
     bool directional_lights = false;
     bool attenuation = false;       ///< some point light has kl or kq other than 0, or kc other than 1
@@ -44,8 +46,8 @@ struct SceneTraits {
     friend constexpr bool operator==(const SceneTraits&, const SceneTraits&) = default;
 };
 
-inline constexpr SceneTraits everything{~0U,  ~0U,  true, true, true, true, true, true,
-                                        true, true, true, true, true, true, true, true};
+inline constexpr SceneTraits everything{~0U,  ~0U,  ~0U,  ~0U,  true, true, true, true, true,
+                                        true, true, true, true, true, true, true, true, true};
 
 /// What every shape in a scene carries.
 struct Tag {
@@ -67,6 +69,13 @@ struct Placed {
     Affine<R> world_from_object{};
     Affine<R> object_from_world{};
     Tag tag{};
+};
+
+/// A primitive that is seen as a part of a solid only.
+template <class Primitive>
+struct Member {
+    Primitive primitive{};
+    bool inverted = false; ///< an odd number of subtractions takes it away: its outside is the solid's inside
 };
 
 /// The picture's settings that a scene states and a command line may override.
@@ -99,12 +108,36 @@ constexpr bool uses_kind(const SceneTraits& traits, std::uint32_t kind) {
     return ((kind % 2 == 0 ? traits.bare_shapes : traits.placed_shapes) >> (kind / 2) & 1U) != 0;
 }
 
+constexpr bool uses_member_kind(const SceneTraits& traits, std::uint32_t kind) {
+    return ((kind % 2 == 0 ? traits.bare_members : traits.placed_members) >> (kind / 2) & 1U) != 0;
+}
+constexpr bool uses_csg(const SceneTraits& traits) {
+    return (traits.bare_members | traits.placed_members) != 0;
+}
+/// A member's kind in a Hit is its primitive's plus this.
+inline constexpr std::uint32_t member_kinds = primitive_kinds;
+
 /// Up to this many bounded shapes, looking at each costs less than a hierarchy.
 inline constexpr std::size_t accelerator_threshold = 12;
 
 struct PrimitiveRef {
     std::uint32_t kind = 0;
     std::uint32_t index = 0;
+};
+
+/// How a node of a solid's tree is made from its operands.
+enum class CsgOp : std::uint32_t {
+    member, ///< a primitive; no operands
+    unite,
+    intersect,
+    subtract ///< the first without the rest
+};
+
+/// A node of a solid's tree. The nodes of its operands follow it.
+struct CsgNode {
+    CsgOp op = CsgOp::member;
+    std::uint32_t size = 1; ///< nodes in this subtree, this one among them
+    PrimitiveRef member;    ///< its kind and its index among the members of that kind
 };
 
 /// A hierarchy over the bounded shapes; without nodes where they are too few (see prepare in accel/build.h).
@@ -128,6 +161,11 @@ struct SceneBase {
     static constexpr std::array<Primitive, 0> primitives(Of<Primitive>) {
         return {};
     }
+    template <class Primitive>
+    static constexpr std::array<Member<Primitive>, 0> members(Of<Primitive>) {
+        return {};
+    }
+    static constexpr std::array<CsgNode, 0> csg_nodes{};
     static constexpr std::array<PointLight<R>, 0> point_lights{};
     static constexpr std::array<DirectionalLight<R>, 0> directional_lights{};
     static constexpr std::array<MeshData, 0> meshes{};
@@ -157,6 +195,10 @@ struct SceneBase {
 ///         using SceneBase<R>::primitives;
 ///         static constexpr std::array<Bare<Plane<R>>, 1> bare_plane{{{{.normal = {0, 1, 0}}, {.id = 0}}}};
 ///         const auto& primitives(Of<Bare<Plane<R>>>) const { return bare_plane; }
+///         using SceneBase<R>::members; // the same for members of solids
+///         static constexpr std::array<Member<Bare<Sphere<R>>>, 2> member_bare_sphere{{...}};
+///         const auto& members(Of<Bare<Sphere<R>>>) const { return member_bare_sphere; }
+///         static constexpr std::array<CsgNode, 3> csg_nodes{{...}};
 ///         static constexpr std::array<Phong<R>, 1> materials{{...}};
 ///         static constexpr std::array<PointLight<R>, 1> point_lights{{...}};
 ///         static constexpr Camera<R> camera{...};
@@ -189,6 +231,8 @@ concept SceneModel = requires(const S& s, const SurfacePoint<typename S::Real>& 
     { s.ambient } -> std::convertible_to<Rgb<typename S::Real>>;
     { s.background } -> std::convertible_to<Rgb<typename S::Real>>;
     s.primitives(Of<PrimitiveOfKind<typename S::Real, 0>>{}).size();
+    s.members(Of<PrimitiveOfKind<typename S::Real, 0>>{}).size();
+    s.csg_nodes.size();
     { s.color_function(0, point) } -> std::convertible_to<Rgb<typename S::Real>>;
     { s.number_function(0, point) } -> std::convertible_to<typename S::Real>;
 };
@@ -198,6 +242,7 @@ struct PrimitiveTables;
 template <class R, std::uint32_t... kind>
 struct PrimitiveTables<R, std::integer_sequence<std::uint32_t, kind...>> {
     std::tuple<std::vector<PrimitiveOfKind<R, kind>>...> tables;
+    std::tuple<std::vector<Member<PrimitiveOfKind<R, kind>>>...> members;
 };
 
 /// The scene whose content is known at run time only. Fill the tables, then call prepare (accel/build.h).
@@ -207,6 +252,7 @@ struct DynamicScene {
     static constexpr SceneTraits traits = everything;
 
     PrimitiveTables<R> shapes;
+    std::vector<CsgNode> csg_nodes;
     std::vector<Phong<R>> materials;
     std::vector<PointLight<R>> point_lights;
     std::vector<DirectionalLight<R>> directional_lights;
@@ -225,6 +271,14 @@ struct DynamicScene {
     template <class Primitive>
     void add(const Primitive& primitive) {
         std::get<std::vector<Primitive>>(shapes.tables).push_back(primitive);
+    }
+    template <class Primitive>
+    const std::vector<Member<Primitive>>& members(Of<Primitive>) const {
+        return std::get<std::vector<Member<Primitive>>>(shapes.members);
+    }
+    template <class Primitive>
+    void add(const Member<Primitive>& member) {
+        std::get<std::vector<Member<Primitive>>>(shapes.members).push_back(member);
     }
 
     template <class L>

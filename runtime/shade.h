@@ -165,27 +165,33 @@ private:
     void meet(const Ray<L>& ray, const Hit<L>& hit, Pack& pack) const {
         Encounter<L>& at = pack.at;
         bool first = true;
-        for_each_primitive(scene_, hit, pack.active, [&](const auto& primitive, const Mask& here) {
-            Vec3<L> object_point;
-            const Surface<L> surface = surface_of(scene_, primitive, ray, hit.shape, here, object_point);
-            const Mask back = dot(surface.normal, ray.dir) > 0;
-            const Vec3<L> normal = choose(dot(surface.shading_normal, ray.dir) > 0, -surface.shading_normal,
-                                          surface.shading_normal);
-            const Sides& sides = primitive.tag.sides;
-            using Index = IndexOf<L>;
-            const Index material = S::traits.two_sided ? choose(back, Index(sides.back), Index(sides.front))
-                                                       : Index(sides.front);
-            // Value by value, since whole structures would be copied through memory.
-            put(first, here, surface.point, at.surface.point);
-            put(first, here, surface.error, at.surface.error);
-            put(first, here, surface.normal, at.surface.normal);
-            put(first, here, normal, at.normal);
-            put(first, here, material, at.material);
-            if constexpr (S::traits.functions) {
-                put(first, here, object_point, at.point.p);
-            }
-            first = false;
-        });
+        for_each_primitive(
+            scene_, hit, pack.active,
+            [&](const auto& primitive, const Mask& here, [[maybe_unused]] const auto inverted) {
+                Vec3<L> object_point;
+                Surface<L> surface = surface_of(scene_, primitive, ray, hit.shape, here, object_point);
+                if constexpr (uses_csg(S::traits)) {
+                    surface = inverted ? turned_over(surface) : surface;
+                }
+                const Mask back = dot(surface.normal, ray.dir) > 0;
+                const Vec3<L> normal = choose(dot(surface.shading_normal, ray.dir) > 0,
+                                              -surface.shading_normal, surface.shading_normal);
+                const Sides& sides = primitive.tag.sides;
+                using Index = IndexOf<L>;
+                const Index material = S::traits.two_sided
+                                           ? choose(back, Index(sides.back), Index(sides.front))
+                                           : Index(sides.front);
+                // Value by value, since whole structures would be copied through memory.
+                put(first, here, surface.point, at.surface.point);
+                put(first, here, surface.error, at.surface.error);
+                put(first, here, surface.normal, at.surface.normal);
+                put(first, here, normal, at.normal);
+                put(first, here, material, at.material);
+                if constexpr (S::traits.functions) {
+                    put(first, here, object_point, at.point.p);
+                }
+                first = false;
+            });
         if constexpr (S::traits.functions) {
             at.point.world = at.surface.point;
             at.point.n = at.surface.normal;

@@ -88,6 +88,11 @@ private:
     }
 
     void record(const ir::Object& object) {
+        if (const auto* solid = std::get_if<runtime::Csg<double>>(&object.shape)) {
+            add({Fidelity::dropped, "solids made of others are not written for Blender"},
+                std::string(ir::csg_word(scene_.csg_nodes[solid->root].op)), object.path, object.span);
+            return;
+        }
         const bool mirror = reflects(object.sides.front) || reflects(object.sides.back);
         const bool smooth = is_smooth(object.shape, scene_);
         const bool pattern = has_pattern(object, scene_);

@@ -73,7 +73,7 @@ struct MirrorView {
 template <class Shape>
 MirrorView sees_itself(const Shape& shape, const Vec3<double>& eye) {
     using namespace runtime;
-    if constexpr (std::is_same_v<Shape, Mesh<double>>) {
+    if constexpr (std::is_same_v<Shape, Mesh<double>> || std::is_same_v<Shape, Csg<double>>) {
         return {true, true};
     } else if constexpr (std::is_same_v<Shape, Triangle<double>>) {
         return {shape.smooth, shape.smooth};
@@ -89,7 +89,7 @@ MirrorView sees_itself(const Shape& shape, const Vec3<double>& eye) {
 class Mirrors {
 public:
     explicit Mirrors(const ir::Scene& scene) : scene_(scene) {
-        ir::for_each_object(scene, [&](const ir::Object& object) { add(object); });
+        for_each_written(scene, [&](const ir::Object& object) { add(object); });
     }
 
     int bounces() const {
@@ -150,7 +150,7 @@ public:
     }
 
     BlenderNeeds find() {
-        ir::for_each_object(scene_, [&](const ir::Object& object) { add(object); });
+        for_each_written(scene_, [&](const ir::Object& object) { add(object); });
         for (const ir::Light& light : scene_.lights) {
             want("light");
             std::visit([&](const auto& l) { add(l); }, light.light);
@@ -225,6 +225,7 @@ private:
         want("triangle");
         want(is_smooth(object.shape, scene_) ? "smooth" : "flat");
     }
+    void add(const ir::Object&, const runtime::Csg<double>&) {} // not written
     void add(const ir::Object& object, const runtime::Mesh<double>& mesh) {
         want("mesh");
         want(is_smooth(object.shape, scene_) ? "smooth" : "flat");

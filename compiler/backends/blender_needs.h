@@ -1,6 +1,7 @@
 #pragma once
 
 #include "compiler/backends/blender_library.h"
+#include "compiler/ir/objects.h"
 #include "compiler/ir/scene.h"
 
 #include <vector>
@@ -18,6 +19,16 @@ struct BlenderNeeds {
     runtime::Vec3<double> center; ///< of what is bounded, the lights and the camera
     double extent = 1;            ///< their distance from `center` at most
 };
+
+/// Calls `visit(object)` with every object that the script makes: solids made of others are left out.
+template <class Visit>
+void for_each_written(const ir::Scene& scene, Visit visit) {
+    ir::for_each_object(scene, [&](const ir::Object& object) {
+        if (!std::holds_alternative<runtime::Csg<double>>(object.shape)) {
+            visit(object);
+        }
+    });
+}
 
 BlenderNeeds blender_needs(const ir::Scene& scene);
 

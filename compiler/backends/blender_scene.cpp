@@ -168,7 +168,7 @@ private:
     void write_objects() {
         out_.line("OBJECTS = [");
         out_.indent();
-        ir::for_each_object(scene_, [&](const ir::Object& object) {
+        for_each_written(scene_, [&](const ir::Object& object) {
             std::string text = std::visit([&](const auto& shape) { return described(shape); }, object.shape);
             text += fmt::format(", name={}", python(object.path));
             const std::string front = python(scene_.materials[object.sides.front].name);
@@ -220,6 +220,7 @@ private:
         const std::string normals = t.smooth ? ", normals=" + triple(t.normals) : "";
         return fmt::format("type=\"triangle\", points={}{}", triple(t.points), normals);
     }
+    static std::string described(const runtime::Csg<double>&) { return ""; } // not written
     std::string described(const runtime::Mesh<double>& m) const {
         return fmt::format("type=\"mesh\", mesh={}", python(scene_.meshes[m.mesh].name));
     }

@@ -95,6 +95,10 @@ template <class R>
 std::string literal(const runtime::Mesh<R>& mesh) {
     return fmt::format("{{{}}}", mesh.mesh);
 }
+template <class R>
+std::string literal(const runtime::Csg<R>& solid) {
+    return fmt::format("{{{}}}", solid.root);
+}
 // Members stand in the order of fields(), an optional one's flag right after it (see runtime/field.h).
 template <class Shape>
 std::string literal(const Shape& shape) requires requires {
@@ -119,6 +123,16 @@ template <class Shape, class R>
 std::string literal(const Placed<Shape, R>& primitive) {
     return fmt::format("{{{}, {}, {}, {}}}", literal(primitive.shape), literal(primitive.world_from_object),
                        literal(primitive.object_from_world), literal(primitive.tag));
+}
+
+template <class Primitive>
+std::string literal(const runtime::Member<Primitive>& member) {
+    return fmt::format("{{{}, {}}}", literal(member.primitive), literal(member.inverted));
+}
+std::string literal(const runtime::CsgNode& node) {
+    static constexpr const char* ops[] = {"member", "unite", "intersect", "subtract"};
+    return fmt::format("{{CsgOp::{}, {}, {{{}, {}}}}}", ops[static_cast<std::size_t>(node.op)], node.size,
+                       node.member.kind, node.member.index);
 }
 
 // ---- names of types ------------------------------------------------------------------------------------
@@ -236,16 +250,18 @@ void Emitter<R>::traits() {
     for (const ir::TraitFlag& flag : ir::trait_flags) {
         flags += t.*flag.member ? fmt::format(", .{} = true", flag.name) : "";
     }
-    out_.line("static constexpr SceneTraits traits{{.bare_shapes = {:#x}, .placed_shapes = {:#x}{}}};",
-              t.bare_shapes, t.placed_shapes, flags);
+    const std::string members = !runtime::uses_csg(t)
+                                    ? ""
+                                    : fmt::format(", .bare_members = {:#x}, .placed_members = {:#x}",
+                                                  t.bare_members, t.placed_members);
+    out_.line("static constexpr SceneTraits traits{{.bare_shapes = {:#x}, .placed_shapes = {:#x}{}{}}};",
+              t.bare_shapes, t.placed_shapes, members, flags);
 }
 
 template <class R>
 void Emitter<R>::primitives() {
-    runtime::PrimitiveTables<R> tables;
-    for_each_primitive<R>(scene_, [&]<class Primitive>(const Primitive& primitive) {
-        std::get<std::vector<Primitive>>(tables.tables).push_back(primitive);
-    });
+    runtime::DynamicScene<R> tables;
+    for_each_primitive<R>(scene_, [&](const auto& primitive) { tables.add(primitive); });
     out_.raw_line("using SceneBase<R>::primitives;");
     const auto emit_table = [&]<class Primitive>(const std::vector<Primitive>& rows) {
         if (rows.empty() && !any_scene_) {
@@ -255,7 +271,22 @@ void Emitter<R>::primitives() {
         table(type_name(tag), table_name(tag), rows);
         out_.line("const auto& primitives(Of<{}>) const {{ return {}; }}", type_name(tag), table_name(tag));
     };
-    std::apply([&](const auto&... rows) { (emit_table(rows), ...); }, tables.tables);
+    std::apply([&](const auto&... rows) { (emit_table(rows), ...); }, tables.shapes.tables);
+    if (!runtime::uses_csg(scene_.traits) && !any_scene_) {
+        return;
+    }
+    out_.raw_line("using SceneBase<R>::members;");
+    const auto emit_members = [&]<class Primitive>(const std::vector<runtime::Member<Primitive>>& rows) {
+        if (rows.empty() && !any_scene_) {
+            return;
+        }
+        const Primitive* tag = nullptr;
+        const std::string name = "member_" + table_name(tag);
+        table(fmt::format("Member<{}>", type_name(tag)), name, rows);
+        out_.line("const auto& members(Of<{}>) const {{ return {}; }}", type_name(tag), name);
+    };
+    std::apply([&](const auto&... rows) { (emit_members(rows), ...); }, tables.shapes.members);
+    table("CsgNode", "csg_nodes", csg_nodes_of(scene_));
 }
 
 std::string input_spelling(ir::Input input) {

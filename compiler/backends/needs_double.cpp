@@ -100,6 +100,11 @@ std::optional<std::string> needs_double(const ir::Scene& scene) {
                 reason = too_much(array.columns[i], scene, eye);
             }
         });
+    for (std::size_t i = 0; !reason && i < scene.members.size(); ++i) {
+        const ir::Object& member = scene.members[i];
+        reason = too_much(object_bounds(member.shape, scene), member.world_from_object,
+                          stretch_of(member.world_from_object), eye, [&] { return member.path; });
+    }
     if (reason) {
         return reason;
     }

@@ -149,6 +149,47 @@ private:
     }
 
     void emit_object(const ir::Object& object) {
+        if (const auto* solid = std::get_if<runtime::Csg<double>>(&object.shape)) {
+            objects_.line("// {}", comment_text(object.path + line_of(object.span)));
+            emit_solid(solid->root, true);
+            note(Fidelity::exact, std::string(ir::csg_word(scene_.csg_nodes[solid->root].op)), object.path,
+                 object.span, pov_word(scene_.csg_nodes[solid->root].op));
+        } else {
+            emit_shape(object, true);
+        }
+    }
+
+    /// POV-Ray shows a union's inner surfaces to whoever is inside; a merge has none, as our union.
+    static const char* pov_word(runtime::CsgOp op) {
+        return op == runtime::CsgOp::unite       ? "merge"
+               : op == runtime::CsgOp::intersect ? "intersection"
+                                                 : "difference";
+    }
+
+    void emit_solid(std::size_t at, bool whole) {
+        const ir::CsgNode& node = scene_.csg_nodes[at];
+        if (node.op == runtime::CsgOp::member) {
+            emit_shape(scene_.members[node.member], whole);
+            return;
+        }
+        const std::size_t end = at + node.size;
+        if (at + 1 + scene_.csg_nodes[at + 1].size == end) { // POV-Ray wants two operands
+            emit_solid(at + 1, whole);
+            return;
+        }
+        objects_.line("{} {{", pov_word(node.op));
+        objects_.indent();
+        for (std::size_t child = at + 1; child < end; child += scene_.csg_nodes[child].size) {
+            emit_solid(child, false);
+        }
+        if (whole && !scene_.settings.shadows) {
+            objects_.line("no_shadow");
+        }
+        objects_.dedent();
+        objects_.line("}}");
+    }
+
+    void emit_shape(const ir::Object& object, bool whole) {
         const Placement placement = place(object, scene_, frame_);
         const PovShape shape = pov_shape(object.shape, placement, mesh_names_);
         declare_mesh_of(object);
@@ -165,7 +206,7 @@ private:
             objects_.raw_line(moved);
         }
         write_textures(textures, true);
-        if (!scene_.settings.shadows) {
+        if (whole && !scene_.settings.shadows) {
             objects_.line("no_shadow");
         }
         objects_.dedent();

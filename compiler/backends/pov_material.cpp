@@ -41,7 +41,7 @@ PovMaterials::PovMaterials(const ir::Scene& scene, Writer& functions, Writer& te
     for (InputRanges& ranges : ranges_) {
         ranges.fill({inf, -inf});
     }
-    ir::for_each_object(scene, [&](const ir::Object& object) {
+    ir::for_each_surface(scene, [&](const ir::Object& object) {
         const InputRanges ranges = input_ranges(object, scene);
         include(ranges_[object.sides.front], ranges);
         include(ranges_[object.sides.back], ranges);

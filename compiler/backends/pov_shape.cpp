@@ -48,6 +48,7 @@ struct ToPov {
                              size(d.hole))}};
     }
     PovShape operator()(const runtime::Triangle<double>& t) const { return t.smooth ? smooth(t) : flat(t); }
+    PovShape operator()(const runtime::Csg<double>&) const { return {}; } // written by its members
     PovShape operator()(const runtime::Mesh<double>& m) const { return {"object", {mesh_names[m.mesh]}}; }
 
     /// Written where it will stand: POV-Ray reorders the corners when it transforms a triangle, and may turn

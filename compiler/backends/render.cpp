@@ -69,6 +69,7 @@ std::shared_ptr<const OwnedScene<R>> build(const ir::Scene& scene, std::shared_p
         out.meshes.push_back(mesh.data);
     }
     for_each_primitive<R>(scene, [&](const auto& primitive) { out.add(primitive); });
+    out.csg_nodes = csg_nodes_of(scene);
     out.materials = materials_of<R>(scene);
     out.point_lights = lights_of<runtime::PointLight, R>(scene);
     out.directional_lights = lights_of<runtime::DirectionalLight, R>(scene);

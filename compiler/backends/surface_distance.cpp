@@ -1,5 +1,6 @@
 #include "compiler/backends/surface_distance.h"
 
+#include "compiler/bounds.h"
 #include "compiler/ir/objects.h"
 #include "runtime/bounds.h"
 
@@ -159,6 +160,18 @@ struct Measure {
         include_distance(std::hypot(height, across - clamped(across, d.hole, d.radius)));
     }
     void operator()(const runtime::Triangle<double>& t) { include_triangle(t.points); }
+    /// No nearer than the nearest of its members, no farther than its box.
+    void operator()(const runtime::Csg<double>& solid) {
+        ir::for_each_csg_node(scene, solid, [&](const ir::CsgNode& node) {
+            if (node.op == runtime::CsgOp::member) {
+                const ir::Object& member = scene.members[node.member];
+                Measure measure{scene, member.world_from_object, point};
+                std::visit([&](const auto& shape) { measure(shape); }, member.shape);
+                range.near = std::min(range.near, measure.range.near);
+            }
+        });
+        include_box(solid_bounds(scene, solid.root));
+    }
     void operator()(const runtime::Mesh<double>& m) {
         const ir::Mesh& mesh = scene.meshes[m.mesh];
         const auto vertex = [&](std::size_t i) {

@@ -89,22 +89,67 @@ runtime::Mesh<R> convert(const runtime::Mesh<double>& mesh, R) {
     return {mesh.mesh};
 }
 
-/// Calls `visit` with the Bare or Placed primitive of every object, in the order of their ids.
+template <class R>
+runtime::Csg<R> convert(const runtime::Csg<double>& solid, R) {
+    return {solid.root};
+}
+
+/// Calls `visit` with an object's Bare or Placed primitive.
+template <class R, class Source, class Visit>
+void visit_primitive(const Source& source, const runtime::Affine<double>& place, const runtime::Tag& tag,
+                     Visit visit) {
+    const auto shape = convert(source, R{});
+    using Shape = std::remove_const_t<decltype(shape)>;
+    if (place == runtime::Affine<double>{}) {
+        visit(runtime::Bare<Shape>{shape, tag});
+    } else {
+        visit(runtime::Placed<Shape, R>{shape, runtime::affine_cast<R>(place),
+                                        runtime::affine_cast<R>(inverse(place)), tag});
+    }
+}
+
+/// Calls `visit` with the Bare or Placed primitive of every object, or its Member of a solid, in the order of
+/// their ids.
 template <class R, class Visit>
 void for_each_primitive(const ir::Scene& scene, Visit visit) {
     std::uint32_t id = 0;
+    const auto visit_member = [&](const ir::CsgNode& node) {
+        if (node.op != runtime::CsgOp::member) {
+            return;
+        }
+        const ir::Object& member = scene.members[node.member];
+        std::visit(
+            [&](const auto& source) {
+                visit_primitive<R>(source, member.world_from_object, {id++, member.sides},
+                                   [&]<class Primitive>(const Primitive& primitive) {
+                                       visit(runtime::Member<Primitive>{primitive, node.inverted});
+                                   });
+            },
+            member.shape);
+    };
     ir::for_each_shape(
         scene, [&](const auto& source, const runtime::Affine<double>& place, const runtime::Sides& sides) {
-            const runtime::Tag tag{id++, sides};
-            const auto shape = convert(source, R{});
-            using Shape = std::remove_const_t<decltype(shape)>;
-            if (place == runtime::Affine<double>{}) {
-                visit(runtime::Bare<Shape>{shape, tag});
-            } else {
-                visit(runtime::Placed<Shape, R>{shape, runtime::affine_cast<R>(place),
-                                                runtime::affine_cast<R>(inverse(place)), tag});
+            visit_primitive<R>(source, place, {id++, sides}, visit);
+            if constexpr (requires { source.root; }) {
+                ir::for_each_csg_node(scene, source, visit_member);
             }
         });
+}
+
+/// The trees of the solids, whose members are where for_each_primitive puts them.
+inline std::vector<runtime::CsgNode> csg_nodes_of(const ir::Scene& scene) {
+    std::array<std::uint32_t, runtime::primitive_kinds> count{};
+    std::vector<runtime::CsgNode> nodes;
+    for (const ir::CsgNode& node : scene.csg_nodes) {
+        runtime::CsgNode& made = nodes.emplace_back(runtime::CsgNode{node.op, node.size, {}});
+        if (node.op == runtime::CsgOp::member) {
+            const ir::Object& member = scene.members[node.member];
+            const bool placed = !(member.world_from_object == runtime::Affine<double>{});
+            made.member.kind = static_cast<std::uint32_t>(2 * member.shape.index() + (placed ? 1 : 0));
+            made.member.index = count[made.member.kind]++;
+        }
+    }
+    return nodes;
 }
 
 /// The lights of one kind, in source order.

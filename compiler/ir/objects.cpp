@@ -24,6 +24,20 @@ std::size_t object_count(const Scene& scene) {
     return count;
 }
 
+std::string_view csg_word(runtime::CsgOp op) {
+    switch (op) {
+    case runtime::CsgOp::member:
+        return "member";
+    case runtime::CsgOp::unite:
+        return "union";
+    case runtime::CsgOp::intersect:
+        return "intersection";
+    case runtime::CsgOp::subtract:
+        return "difference";
+    }
+    return "";
+}
+
 Object object_of(const ObjectColumn& column, std::size_t round) {
     return {std::visit([&](const auto& shapes) { return Shape{shapes[round]}; }, column.shapes),
             column.world_from_object, column.sides_of(round), column.path_of(round), column.span_of(round)};

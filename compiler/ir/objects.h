@@ -13,6 +13,9 @@ namespace scc::compiler::ir {
 
 std::size_t object_count(const Scene& scene);
 
+/// The author's word: `union`, `intersection`, `difference`.
+std::string_view csg_word(runtime::CsgOp op);
+
 /// An object as it would stand on its own.
 Object object_of(const ObjectColumn& column, std::size_t round);
 
@@ -54,6 +57,15 @@ void for_each_shape(SomeScene& scene, Visit visit) {
         });
 }
 
+/// Calls `visit(node)` with every node of a solid's tree, operators before their operands.
+template <class Visit>
+void for_each_csg_node(const Scene& scene, const runtime::Csg<double>& solid, Visit visit) {
+    const std::size_t end = solid.root + scene.csg_nodes[solid.root].size;
+    for (std::size_t i = solid.root; i < end; ++i) {
+        visit(scene.csg_nodes[i]);
+    }
+}
+
 /// Calls `visit(object)` with every object. Those of arrays are made for it, which takes a while; what goes
 /// through millions of them looks at their columns.
 template <class Visit>
@@ -65,6 +77,20 @@ void for_each_object(const Scene& scene, Visit visit) {
             }
         }
     });
+}
+
+/// Calls `visit(object)` with every object that has a surface of its own: members of solids instead of the
+/// solids, after all others.
+template <class Visit>
+void for_each_surface(const Scene& scene, Visit visit) {
+    for_each_object(scene, [&](const Object& object) {
+        if (!std::holds_alternative<runtime::Csg<double>>(object.shape)) {
+            visit(object);
+        }
+    });
+    for (const Object& member : scene.members) {
+        visit(member);
+    }
 }
 
 } // namespace scc::compiler::ir

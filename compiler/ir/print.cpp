@@ -95,6 +95,19 @@ void print_material(Writer& out, const Material& material, const Scene& scene) {
     out.line("}}");
 }
 
+/// A solid's tree, whose members are numbered.
+std::string tree_text(const Scene& scene, std::size_t at) {
+    const CsgNode& node = scene.csg_nodes[at];
+    if (node.op == runtime::CsgOp::member) {
+        return fmt::format("#{}", node.member);
+    }
+    std::string operands;
+    for (std::size_t child = at + 1; child < at + node.size; child += scene.csg_nodes[child].size) {
+        operands += (operands.empty() ? "" : ", ") + tree_text(scene, child);
+    }
+    return fmt::format("{}({})", csg_word(node.op), operands);
+}
+
 template <class Shape>
 std::string shape_text(const Shape& shape, const Scene& scene) {
     if constexpr (requires { Shape::fields(); }) {
@@ -107,13 +120,15 @@ std::string shape_text(const Shape& shape, const Scene& scene) {
         };
         std::apply([&](const auto&... field) { (add(field), ...); }, Shape::fields());
         return fmt::format("{} {{ {} }}", Shape::name, fields);
+    } else if constexpr (std::is_same_v<Shape, runtime::Csg<double>>) {
+        return tree_text(scene, shape.root);
     } else {
         return fmt::format("{} {{ {} }}", Shape::name, quote(Language::cpp, scene.meshes[shape.mesh].name));
     }
 }
 
-void print_object(Writer& out, const Object& object, const Scene& scene) {
-    out.line("object {} {{", quote(Language::cpp, object.path));
+void print_object(Writer& out, const std::string& heading, const Object& object, const Scene& scene) {
+    out.line("{} {} {{", heading, quote(Language::cpp, object.path));
     out.indent();
     out.raw_line(std::visit([&](const auto& shape) { return shape_text(shape, scene); }, object.shape));
     if (!(object.world_from_object == Affine<double>{})) {
@@ -174,7 +189,10 @@ std::string print(const Scene& scene) {
     for (const Material& material : scene.materials) {
         print_material(out, material, scene);
     }
-    for_each_object(scene, [&](const Object& object) { print_object(out, object, scene); });
+    for (std::size_t i = 0; i < scene.members.size(); ++i) {
+        print_object(out, fmt::format("member #{}", i), scene.members[i], scene);
+    }
+    for_each_object(scene, [&](const Object& object) { print_object(out, "object", object, scene); });
     return out.take();
 }
 

@@ -77,6 +77,14 @@ struct ObjectArray {
     std::vector<ObjectColumn> columns;
 };
 
+/// A node of a solid's tree, as runtime::CsgNode.
+struct CsgNode {
+    runtime::CsgOp op = runtime::CsgOp::member;
+    std::uint32_t size = 1;   ///< nodes in this subtree, this one among them
+    std::uint32_t member = 0; ///< index into Scene::members
+    bool inverted = false;    ///< of a member: an odd number of subtractions takes it away
+};
+
 struct Light {
     std::variant<runtime::PointLight<double>, runtime::DirectionalLight<double>> light;
     std::string name; ///< unique
@@ -88,6 +96,8 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<Object> objects; ///< in source order, groups flattened; see objects.h for going through all
     std::vector<ObjectArray> arrays; ///< in source order
+    std::vector<Object> members;     ///< of solids: seen as parts of them only; in source order
+    std::vector<CsgNode> csg_nodes;  ///< the trees of the objects that are runtime::Csg, in their order
     std::vector<Light> lights;       ///< enabled ones
     std::vector<Mesh> meshes;
     std::vector<Function> functions;

@@ -25,6 +25,9 @@ std::vector<std::string> feature_names(const runtime::SceneTraits& traits) {
     std::vector<std::string> names;
     add_shape_names(names, traits.bare_shapes, "", runtime::Shapes<double>{});
     add_shape_names(names, traits.placed_shapes, " (transformed)", runtime::Shapes<double>{});
+    add_shape_names(names, traits.bare_members, " (in a solid)", runtime::Primitives<double>{});
+    add_shape_names(names, traits.placed_members, " (in a solid, transformed)",
+                    runtime::Primitives<double>{});
     for (const TraitFlag& flag : trait_flags) {
         if (traits.*flag.member) {
             names.emplace_back(flag.name);

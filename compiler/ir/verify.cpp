@@ -54,6 +54,17 @@ void verify_material(const Material& material, const Scene& scene) {
     verify_varying(p.shininess.function, 1, scene, material.name);
 }
 
+void verify_solid(const Object& object, const runtime::Csg<double>& solid, const Scene& scene) {
+    require(solid.root < scene.csg_nodes.size(), "no such tree", object.path);
+    require(solid.root + scene.csg_nodes[solid.root].size <= scene.csg_nodes.size(), "a tree is cut off",
+            object.path);
+    for_each_csg_node(scene, solid, [&](const CsgNode& node) {
+        if (node.op == runtime::CsgOp::member) {
+            require(node.size == 1 && node.member < scene.members.size(), "no such member", object.path);
+        }
+    });
+}
+
 void verify_object(const Object& object, const Scene& scene) {
     require(object.sides.front < scene.materials.size() && object.sides.back < scene.materials.size(),
             "no such material", object.path);
@@ -64,6 +75,9 @@ void verify_object(const Object& object, const Scene& scene) {
     }
     if (const auto* mesh = std::get_if<runtime::Mesh<double>>(&object.shape)) {
         require(mesh->mesh < scene.meshes.size(), "no such mesh", object.path);
+    }
+    if (const auto* solid = std::get_if<runtime::Csg<double>>(&object.shape)) {
+        verify_solid(object, *solid, scene);
     }
 }
 
@@ -120,6 +134,11 @@ void verify(const Scene& scene) {
     for (const Object& object : scene.objects) {
         verify_object(object, scene);
     }
+    for (const Object& member : scene.members) {
+        verify_object(member, scene);
+        require(!std::holds_alternative<runtime::Csg<double>>(member.shape), "a solid is a member",
+                member.path);
+    }
     for (const ObjectArray& array : scene.arrays) {
         verify_array(array, scene);
     }
@@ -132,6 +151,9 @@ void verify(const Scene& scene) {
     verify_unique(
         scene.objects, [](const Object& o) -> std::string_view { return o.path; },
         "two objects share a path");
+    verify_unique(
+        scene.members, [](const Object& o) -> std::string_view { return o.path; },
+        "two members share a path");
     verify_unique(
         scene.lights, [](const Light& l) -> std::string_view { return l.name; }, "two lights share a name");
     verify_unique(

@@ -29,6 +29,12 @@ void need(SceneTraits& traits, const ir::Object& object, const ir::Scene& scene)
     }
 }
 
+void need_member(SceneTraits& traits, const ir::Object& member) {
+    const std::uint32_t bit = 1U << member.shape.index();
+    (member.world_from_object == Affine<double>{} ? traits.bare_members : traits.placed_members) |= bit;
+    traits.two_sided |= member.sides.front != member.sides.back;
+}
+
 void need(SceneTraits& traits, const ir::ObjectColumn& column) {
     const std::uint32_t bit = 1U << column.shapes.index();
     (column.world_from_object == Affine<double>{} ? traits.bare_shapes : traits.placed_shapes) |= bit;
@@ -64,6 +70,8 @@ void need(SceneTraits& traits, const runtime::DirectionalLight<double>& light) {
 void add(SceneTraits& traits, const SceneTraits& more) {
     traits.bare_shapes |= more.bare_shapes;
     traits.placed_shapes |= more.placed_shapes;
+    traits.bare_members |= more.bare_members;
+    traits.placed_members |= more.placed_members;
     for (const ir::TraitFlag& flag : ir::trait_flags) {
         traits.*flag.member |= more.*flag.member;
     }
@@ -83,6 +91,9 @@ std::vector<Need> needs_of(const ir::Scene& scene) {
                 need(needs.emplace_back(SceneTraits{}, column.span_of(0)).traits, column);
             }
         });
+    for (const ir::Object& member : scene.members) {
+        need_member(needs.emplace_back(SceneTraits{}, member.span).traits, member);
+    }
     for (const ir::Material& material : scene.materials) {
         need(needs.emplace_back(SceneTraits{}, material.span).traits, material.phong, scene.settings.depth);
     }

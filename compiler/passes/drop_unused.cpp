@@ -52,6 +52,9 @@ void for_each_sides(ir::Scene& scene, Visit visit) {
     for (ir::Object& object : scene.objects) {
         visit(object.sides);
     }
+    for (ir::Object& member : scene.members) {
+        visit(member.sides);
+    }
     for (ir::ObjectArray& array : scene.arrays) {
         for (ir::ObjectColumn& column : array.columns) {
             std::for_each(column.sides.begin(), column.sides.end(), visit);
@@ -61,7 +64,8 @@ void for_each_sides(ir::Scene& scene, Visit visit) {
 
 void drop_materials(ir::Scene& scene) {
     std::vector<std::uint8_t> is_used(scene.materials.size()); // bytes: millions of objects write here
-    for_each_sides(scene, [&](const runtime::Sides& sides) { is_used[sides.front] = is_used[sides.back] = 1; });
+    for_each_sides(scene,
+                   [&](const runtime::Sides& sides) { is_used[sides.front] = is_used[sides.back] = 1; });
     const std::vector<bool> used(is_used.begin(), is_used.end());
     if (std::find(used.begin(), used.end(), false) == used.end()) {
         return;
@@ -91,7 +95,7 @@ void drop_functions(ir::Scene& scene) {
     }
 }
 
-/// No array holds meshes.
+/// No array holds meshes, nor does a solid.
 void drop_meshes(ir::Scene& scene) {
     std::vector<bool> used(scene.meshes.size());
     for (const ir::Object& object : scene.objects) {

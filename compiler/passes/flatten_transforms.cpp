@@ -117,6 +117,10 @@ bool flatten(runtime::Mesh<double>&, const Affine<double>&) {
     return false; // stored once, placed many times
 }
 
+bool flatten(runtime::Csg<double>&, const Affine<double>&) {
+    return false; // always in world coordinates
+}
+
 // A function of the object's own coordinates needs them at run time.
 bool reads_object_space(const ir::Scene& scene, std::uint32_t material) {
     const runtime::Phong<double>& p = scene.materials[material].phong;
@@ -150,17 +154,24 @@ void flatten(ir::ObjectColumn& column, const ir::Scene& scene) {
         column.shapes);
 }
 
+void flatten(ir::Object& object, const ir::Scene& scene) {
+    if (object.world_from_object == Affine<double>{} || reads_object_space(scene, object.sides.front) ||
+        reads_object_space(scene, object.sides.back)) {
+        return;
+    }
+    if (std::visit([&](auto& shape) { return flatten(shape, object.world_from_object); }, object.shape)) {
+        object.world_from_object = {};
+    }
+}
+
 } // namespace
 
 void flatten_transforms(ir::Scene& scene) {
     for (ir::Object& object : scene.objects) {
-        if (object.world_from_object == Affine<double>{} || reads_object_space(scene, object.sides.front) ||
-            reads_object_space(scene, object.sides.back)) {
-            continue;
-        }
-        if (std::visit([&](auto& shape) { return flatten(shape, object.world_from_object); }, object.shape)) {
-            object.world_from_object = {};
-        }
+        flatten(object, scene);
+    }
+    for (ir::Object& member : scene.members) {
+        flatten(member, scene);
     }
     for (ir::ObjectArray& array : scene.arrays) {
         for (ir::ObjectColumn& column : array.columns) {

@@ -115,6 +115,78 @@ TEST(Lower, ReportsShapesThatEncloseNothing) {
               std::string::npos);
 }
 
+TEST(Lower, SolidIsOneObjectWithItsMembersAside) {
+    const Compiled c = compile_shapes("let red = phong { diffuse = rgb(1, 0, 0) }\n"
+                                      "let blue = phong { diffuse = rgb(0, 0, 1) }\n"
+                                      "sphere { }\n"
+                                      "difference {\n name = \"part\", material = red\n"
+                                      " box { }\n"
+                                      " for (i in 0..2) { sphere { center = (i, 1, 0), radius = 0.5 } }\n"
+                                      " difference { sphere { material = blue }, box { max = (3, 3, 3) } }\n"
+                                      " transform = translate(0, 0, 4)\n}\n");
+    ASSERT_TRUE(c.fine) << c.messages;
+    ASSERT_EQ(c.scene.objects.size(), 2U);
+    ASSERT_TRUE(std::holds_alternative<runtime::Csg<double>>(c.scene.objects[1].shape));
+    EXPECT_EQ(c.scene.objects[1].path, "part");
+    ASSERT_EQ(c.scene.members.size(), 5U);
+    const char* paths[] = {"part/box", "part/sphere[0]", "part/sphere[1]", "part/difference/sphere",
+                           "part/difference/box"};
+    for (std::size_t i = 0; i < 5; ++i) {
+        EXPECT_EQ(c.scene.members[i].path, paths[i]);
+        EXPECT_EQ(c.scene.members[i].world_from_object.m[2][3], 4);
+        EXPECT_EQ(c.scene.materials[c.scene.members[i].sides.front].name, i == 3 ? "blue" : "red");
+    }
+    std::string inverted;
+    for (const ir::CsgNode& node : c.scene.csg_nodes) {
+        inverted += node.op == runtime::CsgOp::member ? (node.inverted ? '-' : '+') : '(';
+    }
+    EXPECT_EQ(inverted, "(+--(-+");
+    EXPECT_EQ(c.scene.csg_nodes[0].size, 7U);
+}
+
+TEST(Lower, EmptyOperandsOfASolidCountAsNothing) {
+    const std::string none = "group { for (i in 0..0) { sphere { } } }";
+    const auto parts = [&](const std::string& solid) {
+        const Compiled c = compile_shapes(solid + "\nsphere { }");
+        EXPECT_TRUE(c.fine) << c.messages;
+        return c.scene.members.size();
+    };
+    EXPECT_EQ(parts("difference { box { }, " + none + " }"), 1U);
+    EXPECT_EQ(parts("union { " + none + ", box { } }"), 1U);
+    EXPECT_EQ(parts("difference { " + none + ", box { } }"), 0U);
+    EXPECT_EQ(parts("intersection { box { }, " + none + " }"), 0U);
+    EXPECT_EQ(parts("union { }"), 0U);
+}
+
+TEST(Lower, PlanesBoundASolidAlongTheAxes) {
+    EXPECT_TRUE(compile_shapes("intersection { plane { }, plane { normal = (0, -1, 0), offset = 1 }, "
+                               "cylinder { from = (0, -9, 0), to = (0, 9, 0) } }")
+                    .fine);
+    const Compiled slab =
+        compile_shapes("intersection { plane { }, plane { normal = (0, -1, 0), offset = 1 } }");
+    EXPECT_NE(slab.messages.find("[unbounded-solid]"), std::string::npos) << slab.messages;
+}
+
+TEST(Lower, WarnsOfFacesThatCoincideOnlyWhereTheyDo) {
+    const auto warned = [](const std::string& solid) {
+        return compile_shapes(solid).messages.find("[coincident-faces]") != std::string::npos;
+    };
+    const std::string block = "box { min = (-1, 0, -1), max = (1, 1, 1) }";
+    EXPECT_TRUE(warned("difference { " + block + ", box { min = (0, 0, 0), max = (2, 0.5, 2) } }"));
+    EXPECT_TRUE(warned("difference { " + block +
+                       ", cone { from = (0, 0.5, 0), to = (0, 1, 0), "
+                       "radius_from = 0, radius_to = 0.5 } }"));
+    EXPECT_TRUE(warned("difference { " + block + ", plane { normal = (0, -1, 0) } }") == false);
+    EXPECT_TRUE(warned("intersection { " + block + ", plane { offset = 1 } }"));
+    // Beside each other, facing each other, and both taken away.
+    EXPECT_FALSE(warned("difference { " + block + ", box { min = (2, 0, 0), max = (3, 0.5, 2) } }"));
+    EXPECT_FALSE(warned("difference { " + block + ", box { min = (0, 1, 0), max = (2, 2, 2) } }"));
+    EXPECT_FALSE(warned("difference { " + block +
+                        ", box { min = (-0.5, -1, -0.5), max = (0, 2, 0.5) }, "
+                        "box { min = (0, -1, -0.2), max = (0.5, 2, 0.5) } }"));
+    EXPECT_FALSE(warned("union { " + block + ", box { min = (0, 0, 0), max = (2, 0.5, 2) } }"));
+}
+
 TEST(Lower, ReportsImpossibleCameras) {
     EXPECT_FALSE(compile("perspective_camera { eye = (1, 1, 1), target = (1, 1, 1) }\npoint_light { }").fine);
     EXPECT_FALSE(compile("perspective_camera { eye = (0, 5, 0), up = (0, 2, 0) }\npoint_light { }").fine);

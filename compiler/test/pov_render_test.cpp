@@ -129,6 +129,39 @@ TEST_F(PovRender, DrawsShearedMirrorImages) {
     expect_same_picture(shapes_under("matrix([-1, 0.3, 0, 0, 0, 0.8, 0.2, 0, 0.1, 0, 1, 0, 0, 0, 0, 1])"));
 }
 
+TEST_F(PovRender, CutsSolids) {
+    const std::string sides = R"(
+let red = phong { diffuse = rgb(0.7, 0.3, 0.2), specular = rgb(0.3, 0.1, 0.2), shininess = 20 }
+let blue = phong { diffuse = rgb(0.2, 0.3, 0.8) }
+let sides = two_sided { front = red, back = blue }
+difference {
+  material = red
+  transform = rotate((1, 2, 3), 40deg) then scale(1, 0.8, 1) then translate(-1.2, 1.2, 0)
+  union { box { min = (-0.8, -0.8, -0.8), max = (0.8, 0.6, 0.8) }, sphere { center = (0, 0.6, 0), radius = 0.7 } }
+  cylinder { from = (0, -2, 0), to = (0.2, 2, 0), radius = 0.3, material = blue }
+  difference { sphere { center = (0.8, 0, 0.8), radius = 0.7, material = sides }, box { min = (0.6, -1, -1), max = (0.7, 1, 2) } }
+  plane { normal = (-1, -1, -1), offset = -0.8 }
+}
+intersection {
+  material = blue
+  transform = translate(1.3, 1, 0.5)
+  sphere { radius = 0.9 }
+  cone { from = (0, -1, 0), to = (0, 1, 0), radius_from = 1, radius_to = 0.3, material = sides }
+  plane { normal = (0.5, 0, 1), offset = 0.3, material = red }
+}
+union { sphere { center = (0, 0.4, 2.5), radius = 0.4, material = red }, box { min = (0, 0, 2), max = (1, 0.5, 2.6), material = blue } }
+)";
+    expect_same_picture(room + camera + lamp + sides);
+}
+
+TEST_F(PovRender, ShowsSolidsFromWithin) {
+    expect_same_picture(room + lamp + R"(
+perspective_camera { eye = (0, 1, 0), target = (0.3, 0.9, -1), fov_y = 70deg }
+let red = phong { ambient = rgb(1, 0.5, 0.4), diffuse = rgb(0.7, 0.3, 0.2) }
+union { box { min = (-1, -1, -3), max = (1, 2, 1), material = red }, sphere { center = (0, 1, -1), radius = 0.8 } }
+)");
+}
+
 TEST_F(PovRender, InterpolatesNormals) {
     const std::string smooth = R"(
 let m = phong { diffuse = rgb(0.6, 0.6, 0.5), specular = rgb(0.5, 0.5, 0.5), shininess = 15 }

@@ -35,31 +35,33 @@ struct AxisFrame {
     }
 };
 
-/// The t from `near` to `far`; none where near > far.
-template <class L>
-struct Stretch {
-    L near, far;
-};
-
 /// The side's stretch and the ray's stretch between the caps: their common part is inside the solid, so there
 /// is no seam at the rim for a ray to slip through. Part 0 is the side, 1 the cap at `from`, 2 that at `to`.
 template <class L>
-constexpr ShapeHit<L> intersect_capped(const Ray<L>& ray, const AxisFrame<L>& f, const Stretch<L>& side) {
-    const L inf = infinity<L>();
-    const L inverse = 1 / f.dir_along;
-    const L t_from = -f.org_along * inverse, t_to = (f.height - f.org_along) * inverse;
-    const MaskOf<L> across_axis = absolute(inverse) == inf;
-    const L between = choose((f.org_along >= 0) & (f.org_along <= f.height), inf, -inf);
-    const L caps_near = choose(across_axis, -between, minimum(t_from, t_to));
-    const L caps_far = choose(across_axis, between, maximum(t_from, t_to));
+struct CappedStretch {
+    Stretch<L> side, inside;
+    L t_from;
 
-    const L entry = maximum(side.near, caps_near), exit = minimum(side.far, caps_far);
-    const MaskOf<L> crossed = entry <= exit;
-    const L t = choose(crossed, first_in_range(ray, entry, exit), inf);
-    const MaskOf<L> on_side = t == choose(t == entry, side.near, side.far);
-    using Index = IndexOf<L>;
-    return {t, choose(on_side, Index(0), choose(t == t_from, Index(1), Index(2)))};
-}
+    constexpr CappedStretch(const AxisFrame<L>& f, const Stretch<L>& round) : side(round) {
+        const L inf = infinity<L>();
+        const L inverse = 1 / f.dir_along;
+        const L t_to = (f.height - f.org_along) * inverse;
+        t_from = -f.org_along * inverse;
+        const MaskOf<L> across_axis = absolute(inverse) == inf;
+        const L between = choose((f.org_along >= 0) & (f.org_along <= f.height), inf, -inf);
+        const L caps_near = choose(across_axis, -between, minimum(t_from, t_to));
+        const L caps_far = choose(across_axis, between, maximum(t_from, t_to));
+        inside = {maximum(side.near, caps_near), minimum(side.far, caps_far)};
+    }
+
+    constexpr ShapeHit<L> first(const Ray<L>& ray) const {
+        const MaskOf<L> crossed = inside.near <= inside.far;
+        const L t = choose(crossed, first_in_range(ray, inside.near, inside.far), infinity<L>());
+        const MaskOf<L> on_side = t == choose(t == inside.near, side.near, side.far);
+        using Index = IndexOf<L>;
+        return {t, choose(on_side, Index(0), choose(t == t_from, Index(1), Index(2)))};
+    }
+};
 
 /// How far a disc about a point of the axis extends from there, along each coordinate axis.
 template <class R>

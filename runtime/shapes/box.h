@@ -28,11 +28,8 @@ struct Box {
     /// The faces are parts 0 to 5: x min, x max, y min, y max, z min, z max.
     template <class L>
     constexpr ShapeHit<L> intersect(const Ray<L>& ray) const {
-        const Slab<L> x(L(min.x), L(max.x), ray.org.x, ray.dir.x);
-        const Slab<L> y(L(min.y), L(max.y), ray.org.y, ray.dir.y);
-        const Slab<L> z(L(min.z), L(max.z), ray.org.z, ray.dir.z);
-        const L entry = maximum(maximum(x.near, y.near), z.near);
-        const L exit = minimum(minimum(x.far, y.far), z.far);
+        const auto [x, y, z] = slabs(ray);
+        const auto [entry, exit] = common(x, y, z);
         const MaskOf<L> crossed = entry <= exit;
         if (none(crossed)) {
             return {};
@@ -48,6 +45,13 @@ struct Box {
         };
         return {t,
                 choose(x_face, face(0, ray.dir.x), choose(y_face, face(2, ray.dir.y), face(4, ray.dir.z)))};
+    }
+
+    /// Of the ray's line within.
+    template <class L>
+    constexpr Stretch<L> stretch(const Ray<L>& ray) const {
+        const auto [x, y, z] = slabs(ray);
+        return common(x, y, z);
     }
 
     template <class L>
@@ -88,6 +92,20 @@ private:
             far = choose(along, everywhere, maximum(t0, t1));
         }
     };
+    template <class L>
+    struct Slabs {
+        Slab<L> x, y, z;
+    };
+    template <class L>
+    constexpr Slabs<L> slabs(const Ray<L>& ray) const {
+        return {{L(min.x), L(max.x), ray.org.x, ray.dir.x},
+                {L(min.y), L(max.y), ray.org.y, ray.dir.y},
+                {L(min.z), L(max.z), ray.org.z, ray.dir.z}};
+    }
+    template <class L>
+    static constexpr Stretch<L> common(const Slab<L>& x, const Slab<L>& y, const Slab<L>& z) {
+        return {maximum(maximum(x.near, y.near), z.near), minimum(minimum(x.far, y.far), z.far)};
+    }
 };
 
 } // namespace scc::runtime

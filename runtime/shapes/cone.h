@@ -47,11 +47,18 @@ struct Cone {
         const AxisFrame<L> f(from, to, ray);
         const SideRoots<L> side(f, L(radius_from), widening(f));
         if (caps) {
-            return intersect_capped(ray, f, side.inside());
+            return CappedStretch<L>(f, side.inside()).first(ray);
         }
         return {minimum(f.between_ends(ray, side.near_root, side.real & side.near_counts),
                         f.between_ends(ray, side.far_root, side.real & side.far_counts)),
                 {}};
+    }
+
+    /// Of the ray's line within, if there are caps.
+    template <class L>
+    constexpr Stretch<L> stretch(const Ray<L>& ray) const {
+        const AxisFrame<L> f(from, to, ray);
+        return CappedStretch<L>(f, SideRoots<L>(f, L(radius_from), widening(f)).inside()).inside;
     }
 
     template <class L>

@@ -42,7 +42,14 @@ struct Cylinder {
     constexpr ShapeHit<L> intersect(const Ray<L>& ray) const {
         const AxisFrame<L> f(from, to, ray);
         const CircleRoots<L> side = intersect_circle(f.org_across, f.dir_across, L(radius));
-        return caps ? intersect_closed(ray, f, side) : intersect_open(ray, f, side);
+        return caps ? CappedStretch<L>(f, inside(f, side)).first(ray) : intersect_open(ray, f, side);
+    }
+
+    /// Of the ray's line within, if there are caps.
+    template <class L>
+    constexpr Stretch<L> stretch(const Ray<L>& ray) const {
+        const AxisFrame<L> f(from, to, ray);
+        return CappedStretch<L>(f, inside(f, intersect_circle(f.org_across, f.dir_across, L(radius)))).inside;
     }
 
     template <class L>
@@ -74,15 +81,13 @@ private:
                 {}};
     }
 
+    /// The part of the ray within the endless cylinder.
     template <class L>
-    static constexpr ShapeHit<L> intersect_closed(const Ray<L>& ray, const AxisFrame<L>& f,
-                                                  const CircleRoots<L>& side) {
+    static constexpr Stretch<L> inside(const AxisFrame<L>& f, const CircleRoots<L>& side) {
         const L inf = infinity<L>();
         const MaskOf<L> along_axis = dot(f.dir_across, f.dir_across) == 0;
         const L everywhere = choose(along_axis & (side.excess <= 0), inf, -inf);
-        return intersect_capped(
-            ray, f,
-            Stretch<L>{choose(side.real, side.near, -everywhere), choose(side.real, side.far, everywhere)});
+        return {choose(side.real, side.near, -everywhere), choose(side.real, side.far, everywhere)};
     }
 };
 

@@ -2,6 +2,7 @@
 
 #include "runtime/shapes/box.h"
 #include "runtime/shapes/cone.h"
+#include "runtime/shapes/csg.h"
 #include "runtime/shapes/cylinder.h"
 #include "runtime/shapes/disc.h"
 #include "runtime/shapes/mesh.h"
@@ -16,6 +17,16 @@ struct TypeList {};
 
 /// The one list of shapes. A new shape is its header and a row here.
 template <class R>
-using Shapes = TypeList<Sphere<R>, Box<R>, Plane<R>, Cylinder<R>, Cone<R>, Disc<R>, Triangle<R>, Mesh<R>>;
+using Primitives = TypeList<Sphere<R>, Box<R>, Plane<R>, Cylinder<R>, Cone<R>, Disc<R>, Triangle<R>, Mesh<R>>;
+
+template <class List, class Last>
+struct Appended;
+template <class... Ts, class Last>
+struct Appended<TypeList<Ts...>, Last> {
+    using type = TypeList<Ts..., Last>;
+};
+/// With what is made of others.
+template <class R>
+using Shapes = typename Appended<Primitives<R>, Csg<R>>::type;
 
 } // namespace scc::runtime

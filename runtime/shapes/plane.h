@@ -1,5 +1,6 @@
 #pragma once
 
+#include "runtime/bounds.h"
 #include "runtime/field.h"
 #include "runtime/math/vec.h"
 #include "runtime/ray.h"
@@ -32,6 +33,31 @@ struct Plane {
         }
         const L t = distance / slope;
         return {choose((t >= ray.t_min) & (t <= ray.t_max), t, infinity<L>()), {}};
+    }
+
+    /// Of the ray's line behind the plane, on the side that the normal points away from.
+    template <class L>
+    constexpr Stretch<L> stretch(const Ray<L>& ray) const {
+        const Vec3<L> n = lanes<L>(normal);
+        const L distance = L(offset) - dot(n, ray.org), slope = dot(n, ray.dir);
+        const L t = distance / slope, inf = infinity<L>();
+        const L everywhere = choose(distance >= 0, inf, -inf);
+        return {choose(slope < 0, t, choose(slope > 0, -inf, -everywhere)),
+                choose(slope > 0, t, choose(slope < 0, inf, everywhere))};
+    }
+    /// A box around what lies behind the plane, as far as that has bounds.
+    constexpr Bounds<R> half_space_bounds() const {
+        Bounds<R> box{{-infinity<R>(), -infinity<R>(), -infinity<R>()},
+                      {infinity<R>(), infinity<R>(), infinity<R>()}};
+        const R limit = offset + 16 * roundoff<R>() * absolute(offset);
+        const auto bound = [&](R direction, R& low, R& high) {
+            high = direction == 1 ? limit : high;
+            low = direction == -1 ? -limit : low;
+        };
+        bound(normal.x, box.min.x, box.max.x);
+        bound(normal.y, box.min.y, box.max.y);
+        bound(normal.z, box.min.z, box.max.z);
+        return box;
     }
 
     template <class L>

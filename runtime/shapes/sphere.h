@@ -44,6 +44,13 @@ struct Sphere {
         return {choose(roots.real, first_in_range(ray, roots.near, roots.far), infinity<L>()), {}};
     }
 
+    /// Of the ray's line within.
+    template <class L>
+    constexpr Stretch<L> stretch(const Ray<L>& ray) const {
+        const CircleRoots<L> roots = intersect_circle(ray.org - lanes<L>(center), ray.dir, L(radius));
+        return {choose(roots.real, roots.near, infinity<L>()), choose(roots.real, roots.far, -infinity<L>())};
+    }
+
     template <class L>
     constexpr Surface<L> surface(const Ray<L>& ray, const ShapeHit<L>& hit) const {
         const L u = roundoff<L>();

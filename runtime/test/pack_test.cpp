@@ -110,7 +110,7 @@ void compare_shapes(TypeList<Shape...>) {
 }
 
 TYPED_TEST(PackedFormulas, ShapesGiveTheScalarBits) {
-    compare_shapes<TypeParam>(Shapes<TypeParam>{});
+    compare_shapes<TypeParam>(Primitives<TypeParam>{});
 }
 
 TYPED_TEST(PackedFormulas, SmoothTriangleGivesTheScalarBits) {

@@ -180,7 +180,7 @@ struct SingleShape {
     };
     Place surface(const Ray<R>& ray, const Hit<R>& hit) const {
         Place result;
-        for_each_primitive(scene, hit, true, [&](const auto& primitive, bool here) {
+        for_each_primitive(scene, hit, true, [&](const auto& primitive, bool here, bool) {
             result.surface = surface_of(scene, primitive, ray, hit.shape, here, result.object_point);
         });
         return result;

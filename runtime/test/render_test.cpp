@@ -58,7 +58,7 @@ struct Crowd {
                 }
             }
         };
-        for_each_shape(Shapes<R>{}, put);
+        for_each_shape(Primitives<R>{}, put);
         scene.point_lights.push_back(
             {{5, 9, 7}, {1, R(0.9), R(0.8)}, {R(0.5), R(0.5), 1}, 1, R(0.02), R(0.01)});
         scene.directional_lights.push_back(

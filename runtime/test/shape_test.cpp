@@ -92,7 +92,7 @@ public:
     }
 };
 
-using AllShapes = Joined<Shapes<float>, Shapes<double>, Shapes<long double>>::types;
+using AllShapes = Joined<Primitives<float>, Primitives<double>, Primitives<long double>>::types;
 TYPED_TEST_SUITE(EveryShape, AllShapes);
 
 template <bool keep, class Shape>
@@ -109,13 +109,13 @@ struct WithoutMeshes<TypeList<Shape...>> : Joined<If<!is_mesh<Shape>, Shape>...>
 
 template <class Shape>
 class BoundedShape : public EveryShape<Shape> {};
-using BoundedShapes = WithBounds<Shapes<double>>::types;
+using BoundedShapes = WithBounds<Primitives<double>>::types;
 TYPED_TEST_SUITE(BoundedShape, BoundedShapes);
 
 /// Shapes whose surface has a formula, in precisions that long double can judge.
 template <class Shape>
 class ShapeWithFormula : public EveryShape<Shape> {};
-using ShapesWithFormulas = WithoutMeshes<Joined<Shapes<float>, Shapes<double>>::list>::types;
+using ShapesWithFormulas = WithoutMeshes<Joined<Primitives<float>, Primitives<double>>::list>::types;
 TYPED_TEST_SUITE(ShapeWithFormula, ShapesWithFormulas);
 
 TYPED_TEST(BoundedShape, HitIsInsideTheBounds) {

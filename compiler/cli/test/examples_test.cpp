@@ -41,13 +41,34 @@ TEST_P(Examples, AgreeWithPovRayAndBlender) {
     EXPECT_EQ(result.code, 0) << result.out << result.err;
 }
 
+/// Blender gets no solids that are made of others.
+TEST_F(CommandLine, SolidsAgreeWithPovRay) {
+    const std::string scene = example("csg.scn");
+    EXPECT_TRUE(scc({"check", "--strict", scene}).ok());
+    for (const char* precision : {"double", "float"}) {
+        ASSERT_TRUE(scc({"build", scene, "-o", "prog", "--precision", precision}).ok());
+        ASSERT_TRUE(scc({"render", scene, "-o", "generic.pfm", "--size", "160x120", "--samples", "4",
+                         "--precision", precision})
+                        .ok());
+        ASSERT_TRUE(start(path("prog"), {"-o", "native.pfm", "--size", "160x120", "--samples", "4"}).ok());
+        EXPECT_TRUE(read("generic.pfm") == read("native.pfm")) << precision;
+    }
+    EXPECT_EQ(scc({"export", "blender", scene, "-o", "s.py"}).code, 1);
+    if (!validation::find_program("povray")) {
+        GTEST_SKIP() << "povray is not installed";
+    }
+    const auto result = scc({"validate", scene, "--against", "pov,native", "--report", "out", "--size",
+                             "160x120", "--samples", "1"});
+    EXPECT_EQ(result.code, 0) << result.out << result.err;
+}
+
 /// Too many objects for the other renderers; see Arrays for what they get.
 TEST_F(CommandLine, DrawsAHundredThousandSpheres) {
     const std::string scene = example("spheres.scn");
     EXPECT_TRUE(scc({"check", "--strict", scene}).ok());
     ASSERT_TRUE(scc({"build", scene, "-o", "prog", "--precision", "double"}).ok());
-    const auto drawn =
-        scc({"render", scene, "-o", "generic.pfm", "--size", "160x120", "--precision", "double", "--stats", "-"});
+    const auto drawn = scc(
+        {"render", scene, "-o", "generic.pfm", "--size", "160x120", "--precision", "double", "--stats", "-"});
     ASSERT_TRUE(drawn.ok()) << drawn.err;
     ASSERT_TRUE(start(path("prog"), {"-o", "native.pfm", "--size", "160x120"}).ok());
     EXPECT_TRUE(read("generic.pfm") == read("native.pfm"));

@@ -1,0 +1,204 @@
+#pragma once
+
+#include "runtime/raycast.h"
+#include "runtime/test/random_scene.h"
+
+#include <cmath>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+/// Solids made of others, with a test of their own for what is inside: points, not rays.
+namespace scc::runtime::test {
+
+using Wide = Vec3<long double>;
+
+template <class R>
+bool contains(const Sphere<R>& s, const Wide& p) {
+    return length(p - lanes<long double>(s.center)) <= static_cast<long double>(s.radius);
+}
+template <class R>
+bool contains(const Box<R>& b, const Wide& p) {
+    const Wide low = p - lanes<long double>(b.min), high = lanes<long double>(b.max) - p;
+    return low.x >= 0 && low.y >= 0 && low.z >= 0 && high.x >= 0 && high.y >= 0 && high.z >= 0;
+}
+template <class R>
+bool contains(const Plane<R>& s, const Wide& p) {
+    return dot(lanes<long double>(s.normal), p) <= static_cast<long double>(s.offset);
+}
+template <class R>
+bool is_in_cone(const Vec3<R>& from, const Vec3<R>& to, long double at_from, long double at_to,
+                const Wide& p) {
+    const Wide axis = lanes<long double>(to) - lanes<long double>(from), f = p - lanes<long double>(from);
+    const long double part = dot(f, axis) / dot(axis, axis);
+    return part >= 0 && part <= 1 && length(f - axis * part) <= at_from + part * (at_to - at_from);
+}
+template <class R>
+bool contains(const Cylinder<R>& c, const Wide& p) {
+    return is_in_cone(c.from, c.to, c.radius, c.radius, p);
+}
+template <class R>
+bool contains(const Cone<R>& c, const Wide& p) {
+    return is_in_cone(c.from, c.to, c.radius_from, c.radius_to, p);
+}
+
+template <class R>
+struct Node {
+    CsgOp op = CsgOp::member;
+    std::vector<Node> operands{};
+    std::variant<Sphere<R>, Box<R>, Plane<R>, Cylinder<R>, Cone<R>> shape{};
+    std::optional<Affine<double>> place{};
+    Affine<long double> object_from_world{}; ///< of the rounded place
+};
+
+template <class R>
+Node<R> random_node(Random<R>& random, int depth) {
+    Node<R> node;
+    if (depth > 0) {
+        node.op = static_cast<CsgOp>(1 + static_cast<int>(random.number(0, 2.999)));
+        const int operands = 2 + static_cast<int>(random.number(0, 2));
+        for (int i = 0; i < operands; ++i) {
+            node.operands.push_back(random_node(random, depth - 1 - static_cast<int>(random.number(0, 1.5))));
+        }
+        return node;
+    }
+    const auto make = [&](auto shape) {
+        randomize(shape, random, 0.8);
+        if constexpr (requires { shape.caps; }) {
+            shape.caps = true;
+        }
+        node.shape = shape;
+    };
+    switch (static_cast<int>(random.number(0, 4.999))) {
+    case 0:
+        make(Sphere<R>{});
+        break;
+    case 1:
+        make(Box<R>{});
+        break;
+    case 2:
+        make(Plane<R>{});
+        break;
+    case 3:
+        make(Cylinder<R>{});
+        break;
+    default:
+        make(Cone<R>{});
+        break;
+    }
+    if (random.number(0, 1) < 0.5) {
+        node.place = random.map(0.5);
+    }
+    return node;
+}
+
+/// Solids in a scene of their own.
+template <class R>
+struct Solid {
+    DynamicScene<R> scene;
+    std::vector<Node<R>> trees;
+    std::uint32_t next_id = 0;
+
+    explicit Solid(Node<R> tree) { add(std::move(tree)); }
+    Solid(Random<R>& random, int depth) : Solid(random_node(random, depth)) {}
+
+    void add(Node<R> tree) {
+        const auto root = static_cast<std::uint32_t>(scene.csg_nodes.size());
+        scene.add(Bare<Csg<R>>{{root}, {next_id++, {}}});
+        add_node(tree, false);
+        trees.push_back(std::move(tree));
+    }
+
+    bool contains(const Wide& p) const {
+        for (const Node<R>& tree : trees) {
+            if (contains(tree, p)) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    Vec3<R> center() const { return {0, 0, 0}; }
+
+    Surface<R> surface(const Ray<R>& ray, const Hit<R>& hit) const {
+        Surface<R> result;
+        for_each_primitive(scene, hit, true, [&](const auto& primitive, bool here, bool inverted) {
+            Vec3<R> object_point;
+            result = surface_of(scene, primitive, ray, hit.shape, here, object_point);
+            result = inverted ? turned_over(result) : result;
+        });
+        return result;
+    }
+
+private:
+    static bool contains(const Node<R>& node, const Wide& p) {
+        if (node.op == CsgOp::member) {
+            const Wide q = node.place ? transform_point(node.object_from_world, p) : p;
+            return std::visit([&](const auto& shape) { return test::contains(shape, q); }, node.shape);
+        }
+        bool result = contains(node.operands.front(), p);
+        for (std::size_t i = 1; i < node.operands.size(); ++i) {
+            const bool operand = contains(node.operands[i], p);
+            result = node.op == CsgOp::unite       ? result || operand
+                     : node.op == CsgOp::intersect ? result && operand
+                                                   : result && !operand;
+        }
+        return result;
+    }
+
+    template <class Primitive>
+    PrimitiveRef add_member(const Primitive& primitive, std::uint32_t kind, bool inverted) {
+        scene.add(Member<Primitive>{primitive, inverted});
+        return {kind, static_cast<std::uint32_t>(scene.members(Of<Primitive>{}).size() - 1)};
+    }
+
+    template <class Shape, std::uint32_t kind = 0>
+    static constexpr std::uint32_t kind_of() {
+        if constexpr (std::is_same_v<Shape, ShapeOfKind<R, kind>>) {
+            return kind;
+        } else {
+            return kind_of<Shape, kind + 2>();
+        }
+    }
+
+    void add_node(Node<R>& node, bool inverted) {
+        const std::size_t at = scene.csg_nodes.size();
+        scene.csg_nodes.push_back({node.op, 1, {}});
+        if (node.op == CsgOp::member) {
+            scene.csg_nodes[at].member = std::visit(
+                [&]<class Shape>(const Shape& shape) {
+                    const Tag tag{next_id++, {}};
+                    if (!node.place) {
+                        return add_member(Bare<Shape>{shape, tag}, kind_of<Shape>(), inverted);
+                    }
+                    const Affine<R> place = affine_cast<R>(*node.place);
+                    node.object_from_world = inverse(affine_cast<long double>(place));
+                    return add_member(
+                        Placed<Shape, R>{shape, place, affine_cast<R>(node.object_from_world), tag},
+                        kind_of<Shape>() + 1, inverted);
+                },
+                node.shape);
+        }
+        for (std::size_t i = 0; i < node.operands.size(); ++i) {
+            add_node(node.operands[i], inverted != (node.op == CsgOp::subtract && i > 0));
+        }
+        scene.csg_nodes[at].size = static_cast<std::uint32_t>(scene.csg_nodes.size() - at);
+    }
+};
+
+template <class L>
+void set_ray(Ray<L>& rays, int i, const Ray<RealOf<L>>& ray) {
+    const auto put = [&](Vec3<L>& to, const Vec3<RealOf<L>>& from) {
+        set_lane(to.x, i, from.x);
+        set_lane(to.y, i, from.y);
+        set_lane(to.z, i, from.z);
+    };
+    put(rays.org, ray.org);
+    put(rays.dir, ray.dir);
+    set_lane(rays.t_min, i, ray.t_min);
+    set_lane(rays.t_max, i, ray.t_max);
+}
+
+} // namespace scc::runtime::test
