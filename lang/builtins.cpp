@@ -248,20 +248,12 @@ std::vector<Overload> transforms(std::vector<std::vector<Type>> parameters, Run 
     return overloads;
 }
 
-/// Functions that the renderers do not have.
-std::vector<Overload> not_per_point(std::vector<Overload> overloads) {
-    for (Overload& overload : overloads) {
-        overload.per_point = false;
-    }
-    return overloads;
-}
-
 std::vector<Overload> randoms() {
     std::vector<Overload> overloads;
     for (std::size_t count = 1; count <= 3; ++count) {
         overloads.push_back({std::vector<Type>(count, Type(K::number)), K::number, random});
     }
-    return not_per_point(std::move(overloads));
+    return overloads;
 }
 
 std::vector<Builtin> make_table() {
@@ -293,7 +285,7 @@ std::vector<Builtin> make_table() {
         {"normalize", same(vectors, 1, normalize)},
         {"cross", same({K::vec3}, 2, cross_product)},
         {"random", randoms()},
-        {"noise", not_per_point(to_number({K::number, K::vec2, K::vec3}, 1, noise))},
+        {"noise", to_number({K::number, K::vec2, K::vec3}, 1, noise)},
         {"rgb", {{{K::number, K::number, K::number}, K::color, rgb}}},
         {"srgb", {{{K::number, K::number, K::number}, K::color, srgb}}},
         {"translate", transforms({{K::vec3}, {K::number, K::number, K::number}}, translate)},

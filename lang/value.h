@@ -9,7 +9,6 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -85,11 +84,11 @@ struct FieldValue {
 /// A built constructor: `sphere { radius = 1 }`. Immutable, shared between all places that use it.
 struct Thing {
     const Constructor* constructor = nullptr;
-    std::vector<FieldValue> fields; ///< as written; defaults are in the schema
-    std::vector<ThingPtr> children; ///< items of a group, in order
-    std::string name;               ///< of the `let` or `fn` that made it, else empty
-    Span span;                      ///< of the constructor expression
-    std::uint32_t height = 1;       ///< things that stand within each other, at most
+    std::vector<FieldValue> fields;        ///< as written; defaults are in the schema
+    std::vector<ThingPtr> children;        ///< items of a group, in order
+    std::string name;                      ///< of the `let` or `fn` that made it, else empty
+    Span span;                             ///< of the constructor expression
+    std::uint32_t height = 1;              ///< things that stand within each other, at most
     std::shared_ptr<const ThingRows> rows; ///< of a thing that stands for many (see rows.h); else null
 
     const FieldValue* find(std::string_view field) const;
@@ -107,12 +106,15 @@ public:
     virtual std::uint32_t input(std::string_view name) = 0;
     /// `op` is the operator's name as in the runtime's operator table (add, mod, floor, select, ...).
     virtual std::uint32_t apply(std::string_view op, const std::vector<std::uint32_t>& operands) = 0;
+    /// Where the operations that follow were written.
+    virtual void locate(Span /*span*/) {}
 
     /// Whether what is required of unknown values matters; per-point functions go on with whatever comes out.
     virtual bool has_requirements() const { return false; }
     /// Where the condition is 0, something has to be reported.
     virtual void require(std::uint32_t /*condition*/) {}
-    /// The element of a list of numbers that an unknown whole number chooses, if the builder can express that.
+    /// The element of a list of numbers that an unknown whole number chooses, if the builder can express
+    /// that.
     virtual std::optional<std::uint32_t> lookup(std::vector<double> /*list*/, std::uint32_t /*index*/) {
         return std::nullopt;
     }
