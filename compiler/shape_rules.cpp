@@ -51,6 +51,10 @@ std::string_view rule(const runtime::Mesh<double>&) {
     return "";
 }
 
+std::string_view rule(const runtime::Implicit<double>&) {
+    return ""; // its container was checked as a shape
+}
+
 } // namespace
 
 std::string_view problem(const ir::Shape& shape) {

@@ -97,6 +97,13 @@ template <class S, std::uint32_t... kind>
 constexpr bool uses_mesh_among(std::integer_sequence<std::uint32_t, kind...>) {
     return ((uses_kind(S::traits, kind) && is_mesh<ShapeOfKind<typename S::Real, kind>>) || ...);
 }
+template <class S, std::uint32_t... kind>
+constexpr bool uses_implicit_among(std::integer_sequence<std::uint32_t, kind...>) {
+    return ((uses_kind(S::traits, kind) && is_implicit<ShapeOfKind<typename S::Real, kind>>) || ...);
+}
+template <class S>
+inline constexpr bool
+    uses_implicit = uses_implicit_among<S>(std::make_integer_sequence<std::uint32_t, primitive_kinds>{});
 template <class S>
 inline constexpr bool
     uses_mesh = uses_mesh_among<S>(std::make_integer_sequence<std::uint32_t, primitive_kinds>{});
@@ -155,7 +162,7 @@ auto search_tables(const S& scene, Ray<L> ray, [[maybe_unused]] Candidates candi
     any_of_kinds<S>([&]<std::uint32_t kind>() {
         const auto& table = scene.primitives(Of<PrimitiveOfKind<typename S::Real, kind>>{});
         const auto test = [&](const auto& primitive, [[maybe_unused]] std::uint32_t index) {
-            const ShapeHit<L> found = primitive.shape.intersect(to_object(primitive, ray));
+            const ShapeHit<L> found = intersect_shape(scene, primitive.shape, to_object(primitive, ray));
             if constexpr (AnyHit) {
                 return keep_blocked(ray, result, found) && none(is_active(ray));
             } else {
@@ -360,12 +367,13 @@ private:
         if constexpr (is_mesh<ShapeOfKind<R, kind>>) {
             test_mesh<kind>(primitive, index, packs);
         } else if constexpr (N == 1) {
-            keep<kind>(0, primitive.shape.intersect(to_object(primitive, rays_[0])), primitive.tag.id, index);
+            keep<kind>(0, intersect_shape(scene_, primitive.shape, to_object(primitive, rays_[0])),
+                       primitive.tag.id, index);
         } else {
             for (packs &= live_; packs != 0; packs &= packs - 1) {
                 const auto i = static_cast<std::size_t>(__builtin_ctz(packs));
-                keep<kind>(i, primitive.shape.intersect(to_object(primitive, rays_[i])), primitive.tag.id,
-                           index);
+                keep<kind>(i, intersect_shape(scene_, primitive.shape, to_object(primitive, rays_[i])),
+                           primitive.tag.id, index);
             }
         }
         if constexpr (!AnyHit) {

@@ -37,6 +37,8 @@ Account account(const Shape&, bool mirror, bool smooth, bool pattern) {
                 "pixels, for a "
                 "radius of up to 500",
                 0.004};
+    } else if constexpr (std::is_same_v<Shape, Implicit<double>>) {
+        return {Fidelity::dropped, "Blender has no implicit surfaces, and a mesh of it is not made yet"};
     } else if constexpr (std::is_same_v<Shape, Disc<double>>) {
         return {Fidelity::approximated, "a polygon; bound of its rim in pixels", 0.004};
     } else if constexpr (std::is_same_v<Shape, Plane<double>>) {

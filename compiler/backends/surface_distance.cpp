@@ -158,6 +158,10 @@ struct Measure {
         const double across = length(p - height * n);
         include_distance(std::hypot(height, across - clamped(across, d.hole, d.radius)));
     }
+    void operator()(const runtime::Implicit<double>& i) { // anywhere in the container
+        include_box(i.bounds());
+        range.near = 0;
+    }
     void operator()(const runtime::Triangle<double>& t) { include_triangle(t.points); }
     void operator()(const runtime::Mesh<double>& m) {
         const ir::Mesh& mesh = scene.meshes[m.mesh];

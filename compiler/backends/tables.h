@@ -89,6 +89,14 @@ runtime::Mesh<R> convert(const runtime::Mesh<double>& mesh, R) {
     return {mesh.mesh};
 }
 
+template <class R>
+runtime::Implicit<R> convert(const runtime::Implicit<double>& implicit, R real) {
+    const runtime::Container<double>& within = implicit.within;
+    return {implicit.field,
+            {static_cast<typename runtime::Container<R>::Kind>(within.kind), convert(within.first, real),
+             convert(within.second, real), convert(within.radius, real), convert(within.radius_to, real)}};
+}
+
 /// Calls `visit` with the Bare or Placed primitive of every object, in the order of their ids.
 template <class R, class Visit>
 void for_each_primitive(const ir::Scene& scene, Visit visit) {

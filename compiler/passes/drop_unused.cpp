@@ -61,7 +61,8 @@ void for_each_sides(ir::Scene& scene, Visit visit) {
 
 void drop_materials(ir::Scene& scene) {
     std::vector<std::uint8_t> is_used(scene.materials.size()); // bytes: millions of objects write here
-    for_each_sides(scene, [&](const runtime::Sides& sides) { is_used[sides.front] = is_used[sides.back] = 1; });
+    for_each_sides(scene,
+                   [&](const runtime::Sides& sides) { is_used[sides.front] = is_used[sides.back] = 1; });
     const std::vector<bool> used(is_used.begin(), is_used.end());
     if (std::find(used.begin(), used.end(), false) == used.end()) {
         return;
@@ -72,8 +73,19 @@ void drop_materials(ir::Scene& scene) {
     });
 }
 
+/// No array holds implicit surfaces.
+template <class Visit>
+void for_each_field(ir::Scene& scene, Visit visit) {
+    for (ir::Object& object : scene.objects) {
+        if (auto* implicit = std::get_if<runtime::Implicit<double>>(&object.shape)) {
+            visit(implicit->field);
+        }
+    }
+}
+
 void drop_functions(ir::Scene& scene) {
     std::vector<bool> used(scene.functions.size());
+    for_each_field(scene, [&](std::int32_t field) { used[static_cast<std::size_t>(field)] = true; });
     for (ir::Material& material : scene.materials) {
         for_each_function_index(material.phong, [&](std::int32_t index) {
             if (index >= 0) {
@@ -82,6 +94,9 @@ void drop_functions(ir::Scene& scene) {
         });
     }
     const auto renumbered = keep(scene.functions, used);
+    for_each_field(scene, [&](std::int32_t& field) {
+        field = static_cast<std::int32_t>(renumbered[static_cast<std::size_t>(field)]);
+    });
     for (ir::Material& material : scene.materials) {
         for_each_function_index(material.phong, [&](std::int32_t& index) {
             if (index >= 0) {
