@@ -11,7 +11,7 @@ protected:
     std::string scene() const { return example(std::string(GetParam()) + ".scn"); }
 };
 
-INSTANTIATE_TEST_SUITE_P(All, Examples, testing::Values("lecture", "mesh", "transforms", "lights", "mirrors"),
+INSTANTIATE_TEST_SUITE_P(All, Examples, testing::Values("lecture", "mesh", "transforms", "lights", "mirrors", "implicit"),
                          [](const auto& name) { return std::string(name.param); });
 
 TEST_P(Examples, CheckWithoutAWarning) {
