@@ -68,12 +68,14 @@ struct ToPov {
             fmt::format("contained_by {{ {} }}", around),
             fmt::format("max_gradient {}", number(slope / k)),
             fmt::format("accuracy {}", number(size * k * pov_isosurface_accuracy)),
+            // Else a ray that starts on the surface finds that point alone, and is blocked by nothing behind
+            // it.
+            "all_intersections",
         };
         if (!is_cut) {
             return {"isosurface", lines};
         }
         lines.insert(lines.begin(), "isosurface {");
-        lines.emplace_back("all_intersections");
         lines.emplace_back("}");
         lines.push_back(fmt::format("{} {{ {} }}", container.keyword, container.lines[0]));
         return {"intersection", lines};

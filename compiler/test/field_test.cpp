@@ -33,8 +33,8 @@ TEST(Field, WithoutFiniteValuesIsAMistakeAtTheOperation) {
 TEST(Field, WithFiniteValuesInTheContainerAloneIsFine) {
     for (const char* field :
          {"1 / (p.x + 1.001)", "sqrt(p.x * p.x + p.y * p.y) - 0.5", "length(p) - 0.5", "sqrt(1.0001 - p.x)",
-          "1 / (p.x * p.x - 2 * p.x * p.y + p.y * p.y + 0.01)", "if (p.x > 0.1) 1 / p.x else 3", "p.x ^ -2 + p.y"
-          , "noise(p * 3) - 0.5", "random(floor(p.x)) - 0.5", "7"}) {
+          "1 / (p.x * p.x - 2 * p.x * p.y + p.y * p.y + 0.01)", "if (p.x > 0.1) 1 / p.x else 3",
+          "p.x ^ -2 + p.y", "noise(p * 3) - 0.5", "random(floor(p.x)) - 0.5", "7"}) {
         const bool divides = std::string(field) == "p.x ^ -2 + p.y";
         const test::Compiled c = surface(field, divides ? "sphere { center = (3, 0, 0) }" : "sphere { }");
         EXPECT_TRUE(c.fine) << field << "\n" << c.messages;
@@ -56,8 +56,8 @@ TEST(Field, TakesClosedConvexContainers) {
 }
 
 TEST(Field, InALoopHasItsOwnNumbers) {
-    const test::Compiled c = test::compile_shapes(
-        "for (i in 0..40) { implicit { field = fn(p: vec3) = dot(p, p) - i / 100 - 0.1, within = sphere { } } }");
+    const test::Compiled c = test::compile_shapes("for (i in 0..40) { implicit { field = fn(p: vec3) = "
+                                                  "dot(p, p) - i / 100 - 0.1, within = sphere { } } }");
     ASSERT_TRUE(c.fine) << c.messages;
     ASSERT_EQ(c.scene.objects.size(), 40U);
     EXPECT_EQ(c.scene.functions.size(), 40U);
@@ -83,12 +83,11 @@ TEST(FunctionBuilder, MakesPowersOfProducts) {
     for (const ir::Node& node : c.scene.functions.at(0).nodes) {
         EXPECT_TRUE(node.kind != ir::Node::Kind::apply || node.op != ir::Op::pow);
     }
-    const std::vector<Range> ranges = node_ranges(
-        c.scene.functions[0], [] {
-            InputRanges inputs;
-            inputs.fill({-2, 1});
-            return inputs;
-        }());
+    const std::vector<Range> ranges = node_ranges(c.scene.functions[0], [] {
+        InputRanges inputs;
+        inputs.fill({-2, 1});
+        return inputs;
+    }());
     EXPECT_NEAR(ranges[c.scene.functions[0].results[0]].max, 16 + 4, 1e-9);
 }
 
