@@ -1,15 +1,24 @@
 #include "compiler/function_builder.h"
 
 #include <bit>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
 namespace scc::compiler {
 
+namespace {
+
+/// Powers up to this one become products.
+constexpr double most_factors = 16;
+
+} // namespace
+
 std::uint32_t FunctionBuilder::add(const Key& key, const ir::Node& node) {
     const auto [place, inserted] = known_.emplace(key, static_cast<std::uint32_t>(nodes_.size()));
     if (inserted) {
         nodes_.push_back(node);
+        places_.push_back(place_);
     }
     return place->second;
 }
@@ -35,11 +44,34 @@ std::uint32_t FunctionBuilder::apply(std::string_view op, const std::vector<std:
     if (!found || operands.size() != static_cast<std::size_t>(ir::row(*found).arity)) {
         throw std::logic_error("unknown operator " + std::string(op));
     }
-    ir::Node node{.kind = ir::Node::Kind::apply, .op = *found};
+    if (*found == ir::Op::mul && operands[0] == operands[1]) {
+        return apply_row(ir::Op::square, {operands[0]});
+    }
+    if (*found == ir::Op::pow && nodes_[operands[1]].kind == ir::Node::Kind::constant) {
+        const double exponent = nodes_[operands[1]].constant;
+        if (exponent >= 2 && exponent <= most_factors && exponent == std::floor(exponent)) {
+            return whole_power(operands[0], static_cast<unsigned>(exponent));
+        }
+    }
+    return apply_row(*found, operands);
+}
+
+std::uint32_t FunctionBuilder::apply_row(ir::Op op, const std::vector<std::uint32_t>& operands) {
+    ir::Node node{.kind = ir::Node::Kind::apply, .op = op};
     for (std::size_t i = 0; i < operands.size(); ++i) {
         node.operands[i] = operands[i];
     }
-    return add({2, static_cast<std::uint64_t>(*found), node.operands}, node);
+    return add({2, static_cast<std::uint64_t>(op), node.operands}, node);
+}
+
+/// By squaring, which is faster than the library's power and has narrower bounds than products of the base.
+std::uint32_t FunctionBuilder::whole_power(std::uint32_t base, unsigned exponent) {
+    if (exponent == 1) {
+        return base;
+    }
+    const std::uint32_t half = whole_power(base, exponent / 2);
+    const std::uint32_t even = apply_row(ir::Op::square, {half});
+    return exponent % 2 == 0 ? even : apply_row(ir::Op::mul, {even, base});
 }
 
 ir::Function FunctionBuilder::finish(const std::vector<lang::Scalar>& results) {
@@ -71,6 +103,7 @@ ir::Function FunctionBuilder::finish(const std::vector<lang::Scalar>& results) {
         }
         renumbered[i] = static_cast<std::uint32_t>(function.nodes.size());
         function.nodes.push_back(node);
+        function.places.push_back(places_[i]);
     }
     for (const std::uint32_t root : roots) {
         function.results.push_back(renumbered[root]);

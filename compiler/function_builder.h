@@ -18,6 +18,8 @@ public:
     std::uint32_t input(std::string_view name) override;
     std::uint32_t apply(std::string_view op, const std::vector<std::uint32_t>& operands) override;
 
+    void locate(lang::Span span) override { place_ = span; }
+
     /// The function with these results; nodes that no result needs are left out.
     ir::Function finish(const std::vector<lang::Scalar>& results);
 
@@ -25,7 +27,12 @@ private:
     using Key = std::tuple<int, std::uint64_t, std::array<std::uint32_t, 3>>;
     std::uint32_t add(const Key& key, const ir::Node& node);
 
+    std::uint32_t apply_row(ir::Op op, const std::vector<std::uint32_t>& operands);
+    std::uint32_t whole_power(std::uint32_t base, unsigned exponent);
+
     std::vector<ir::Node> nodes_;
+    std::vector<lang::Span> places_; ///< of the nodes
+    lang::Span place_{};
     std::map<Key, std::uint32_t> known_;
 };
 

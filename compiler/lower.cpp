@@ -1,6 +1,8 @@
 #include "compiler/lower.h"
 
 #include "compiler/bounds.h"
+#include "compiler/field_bounds.h"
+#include "compiler/function_builder.h"
 #include "compiler/ir/objects.h"
 #include "compiler/lower_material.h"
 #include "compiler/lower_view.h"
@@ -33,6 +35,9 @@ constexpr std::size_t most_objects = 20'000'000;
 
 /// The kernels and the exporters go down a solid's tree by recursion.
 constexpr int deepest_solid = 256;
+constexpr std::array<std::string_view, 4> container_names{
+    runtime::Sphere<double>::name, runtime::Box<double>::name, runtime::Cylinder<double>::name,
+    runtime::Cone<double>::name};
 
 // ---- shapes from their own descriptions ----------------------------------------------------------------
 
@@ -120,6 +125,8 @@ private:
     template <class Owner, class T, class Number>
     bool set_field(Owner& shape, const runtime::Field<Owner, T>& field, const lang::FieldValue& given,
                    const Number& number);
+    std::optional<ir::Shape> implicit_shape(const Thing& thing);
+    std::optional<runtime::Container<double>> container(const lang::FieldValue& within);
     std::optional<ir::Shape> mesh_shape(const Thing& thing);
     std::optional<std::uint32_t> load_mesh(const Thing& thing, const std::string& file, MeshNormals normals);
     const std::filesystem::path& folder_of(const Thing& mesh) const;
@@ -205,9 +212,77 @@ std::optional<ir::Shape> ObjectLowering::make_shape(const Thing& thing) {
     if (thing.constructor->name == runtime::Mesh<double>::name) {
         return mesh_shape(thing);
     }
+    if (thing.constructor->name == runtime::Implicit<double>::name) {
+        return implicit_shape(thing);
+    }
     return made_by_description<std::optional<ir::Shape>>(
         thing.constructor->name,
         [&]<class Shape>(std::type_identity<Shape>) { return described_shape<Shape>(thing); });
+}
+
+std::string own_name(const Thing& thing) {
+    if (const lang::FieldValue* name = thing.find("name"); name != nullptr && !to_text(name->value).empty()) {
+        return to_text(name->value);
+    }
+    return thing.name.empty() ? std::string(thing.constructor->name) : thing.name;
+}
+
+// ---- implicit surfaces
+// -------------------------------------------------------------------------------------
+
+std::optional<runtime::Container<double>> ObjectLowering::container(const lang::FieldValue& within) {
+    const Thing& thing = *to_thing(within.value);
+    std::string wrong;
+    if (thing.rows || thing.constructor->takes_children ||
+        std::find(container_names.begin(), container_names.end(), thing.constructor->name) ==
+            container_names.end()) {
+        wrong = fmt::format("this is a {}; a container is a sphere, box, cylinder or cone",
+                            thing.constructor->name);
+    } else if (const lang::Value* caps = thing.get("caps"); caps != nullptr && !to_bool(*caps)) {
+        wrong = fmt::format("this {} is open; a container is closed", thing.constructor->name);
+    } else if (thing.find("transform") != nullptr) {
+        wrong = "a container has no `transform`; the implicit surface can have one";
+    } else if (thing.find("material") != nullptr) {
+        wrong = "a container has no `material`; where it cuts, the implicit surface's own is seen";
+    }
+    if (!wrong.empty()) {
+        diagnostics_.report(Diag::unusable_container, within.value_span, wrong);
+        return std::nullopt;
+    }
+    const std::optional<ir::Shape> shape = make_shape(thing);
+    if (!shape) {
+        return std::nullopt;
+    }
+    return std::visit(
+        [](const auto& s) -> std::optional<runtime::Container<double>> {
+            if constexpr (requires { runtime::Container<double>::of(s); }) {
+                return runtime::Container<double>::of(s);
+            } else {
+                return std::nullopt;
+            }
+        },
+        *shape);
+}
+
+std::optional<ir::Shape> ObjectLowering::implicit_shape(const Thing& thing) {
+    const auto within = container(*thing.find("within"));
+    const lang::FieldValue& field = *thing.find("field");
+    const auto& closure = std::get<lang::ClosurePtr>(field.value.v);
+    FunctionBuilder builder;
+    const std::vector<lang::Scalar> results = lang::trace_at_point(closure, builder, diagnostics_);
+    if (!within || results.size() != 1) {
+        return std::nullopt;
+    }
+    ir::Function function = builder.finish(results);
+    function.name = lang::name_of(*closure).empty() ? own_name(thing) + " field" : lang::name_of(*closure);
+    if (const auto found = find_unbounded(function, *within)) {
+        diagnostics_.report(Diag::unbounded_field,
+                            found->place == lang::Span{} ? field.value_span : found->place, found->what);
+        return std::nullopt;
+    }
+    scene_.functions.push_back(std::move(function));
+    return ir::Shape{
+        runtime::Implicit<double>{static_cast<std::int32_t>(scene_.functions.size() - 1), *within}};
 }
 
 // ---- meshes
@@ -270,13 +345,6 @@ std::optional<std::uint32_t> ObjectLowering::load_mesh(const Thing& thing, const
 
 // ---- objects
 // -----------------------------------------------------------------------------------------------
-
-std::string own_name(const Thing& thing) {
-    if (const lang::FieldValue* name = thing.find("name"); name != nullptr && !to_text(name->value).empty()) {
-        return to_text(name->value);
-    }
-    return thing.name.empty() ? std::string(thing.constructor->name) : thing.name;
-}
 
 // The determinant relative to what the columns' lengths allow; 0 for a transform that flattens.
 bool is_singular(const Affine<double>& a) {

@@ -154,6 +154,22 @@ Constructor mesh() {
     return row;
 }
 
+Constructor implicit() {
+    Constructor row{.name = "implicit",
+                    .type = TypeKind::shape,
+                    .doc = "the solid of the points in a container where a function is negative"};
+    row.fields = {{.name = "field",
+                   .type = Type::function({TypeKind::vec3}, TypeKind::number),
+                   .required = true,
+                   .doc = "of a point; negative inside"},
+                  {.name = "within",
+                   .type = TypeKind::shape,
+                   .required = true,
+                   .doc = "a sphere, box, cylinder or cone; its surface closes the solid"}};
+    add_shape_fields(row);
+    return row;
+}
+
 Constructor with_children(std::string_view name, std::string_view doc) {
     Constructor row{.name = name, .type = TypeKind::shape, .takes_children = true, .doc = doc};
     add_shape_fields(row);
@@ -419,12 +435,17 @@ Constructor raster() {
 // The language's other words: known, so that a scene that uses one is told the truth.
 void add_unsupported(std::vector<Constructor>& rows) {
     const std::pair<std::string_view, TypeKind> words[] = {
-        {"torus", TypeKind::shape},       {"quadric", TypeKind::shape},
-        {"heightfield", TypeKind::shape}, {"implicit", TypeKind::shape},
-        {"polyline", TypeKind::shape},    {"spherical_camera", TypeKind::camera},
-        {"spot_light", TypeKind::light},  {"rectangle_light", TypeKind::light},
-        {"sky_light", TypeKind::light},   {"glass", TypeKind::material},
-        {"pbr", TypeKind::material},      {"image", TypeKind::image},
+        {"torus", TypeKind::shape},
+        {"quadric", TypeKind::shape},
+        {"heightfield", TypeKind::shape},
+        {"polyline", TypeKind::shape},
+        {"spherical_camera", TypeKind::camera},
+        {"spot_light", TypeKind::light},
+        {"rectangle_light", TypeKind::light},
+        {"sky_light", TypeKind::light},
+        {"glass", TypeKind::material},
+        {"pbr", TypeKind::material},
+        {"image", TypeKind::image},
     };
     for (const auto& [name, type] : words) {
         rows.push_back({.name = name, .type = type, .supported = false, .doc = "not supported yet"});
@@ -462,8 +483,8 @@ lang::Schema make_schema() {
     lang::Schema schema;
     add_shapes(schema.constructors, runtime::Shapes<double>{});
     for (auto make :
-         {mesh, group, unite, intersection, difference, phong, two_sided, point_light, directional_light,
-          perspective_camera, orthographic_camera, world, render, ray, raster}) {
+         {mesh, implicit, group, unite, intersection, difference, phong, two_sided, point_light,
+          directional_light, perspective_camera, orthographic_camera, world, render, ray, raster}) {
         schema.constructors.push_back(make());
     }
     add_docs(schema.constructors);

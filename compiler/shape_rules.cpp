@@ -56,6 +56,10 @@ std::string_view rule(const runtime::Csg<double>&) {
     return "";
 }
 
+std::string_view rule(const runtime::Implicit<double>&) {
+    return ""; // its container was checked as a shape
+}
+
 template <class Shape>
 std::string_view gap(const Shape& shape) {
     if constexpr (requires { shape.caps; }) {

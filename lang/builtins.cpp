@@ -297,20 +297,12 @@ std::vector<Overload> transforms(std::vector<std::vector<Type>> parameters, Run 
     return overloads;
 }
 
-/// Functions that the renderers do not have.
-std::vector<Overload> not_per_point(std::vector<Overload> overloads) {
-    for (Overload& overload : overloads) {
-        overload.per_point = false;
-    }
-    return overloads;
-}
-
 std::vector<Overload> randoms() {
     std::vector<Overload> overloads;
     for (std::size_t count = 1; count <= 3; ++count) {
         overloads.push_back({std::vector<Type>(count, Type(K::number)), K::number, random});
     }
-    return not_per_point(std::move(overloads));
+    return overloads;
 }
 
 /// One list of names for each number of parameters.
@@ -378,7 +370,7 @@ std::vector<Builtin> make_table() {
             "a number from 0 up to 1 that depends on the arguments alone, the same on every machine",
             "random(1, 2)", randoms()),
         row("noise", {{"p"}}, "smooth value noise from 0 up to 1 of a point in one, two or three dimensions",
-            "noise((0.5, 0.25, 0))", not_per_point(to_number({K::number, K::vec2, K::vec3}, 1, noise))),
+            "noise((0.5, 0.25, 0))", to_number({K::number, K::vec2, K::vec3}, 1, noise)),
         row("rgb", {{"r", "g", "b"}}, "a colour in linear light, Rec.709 primaries", "rgb(1, 0.5, 0)",
             {{{K::number, K::number, K::number}, K::color, rgb}}),
         row("srgb", {{"r", "g", "b"}},

@@ -24,7 +24,6 @@ struct Overload {
     Type result;
     Value (*run)(BuiltinRun& run, const std::vector<Value>& arguments);
     bool needs_constants = false;          ///< takes known arguments only
-    bool per_point = true;                 ///< can be part of a per-point function
     std::vector<std::string_view> names{}; ///< of the parameters
 };
 

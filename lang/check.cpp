@@ -88,11 +88,14 @@ std::optional<std::string> evaluate_name(std::shared_ptr<const ast::File> file, 
     return is_plain ? std::optional(to_string(value)) : std::nullopt;
 }
 
-std::vector<Scalar> trace(const ClosurePtr& function, SymbolBuilder& builder, Diagnostics& diagnostics) {
+namespace {
+
+std::vector<Scalar> trace_with(const Value& argument, const ClosurePtr& function, SymbolBuilder& builder,
+                               Diagnostics& diagnostics) {
     RunReport report;
     Evaluator evaluator({}, report, &builder);
     const Span span = span_of(*function);
-    const Value result = evaluator.call(*function->function, function->frame, {{SurfaceValue{}}}, span);
+    const Value result = evaluator.call(*function->function, function->frame, {argument}, span);
     const Components parts = components(result);
     for (std::size_t i = 0; i < parts.count; ++i) {
         if (parts.v[i].is_constant() && !std::isfinite(parts.v[i].value)) {
@@ -102,6 +105,22 @@ std::vector<Scalar> trace(const ClosurePtr& function, SymbolBuilder& builder, Di
     }
     report.flush(diagnostics);
     return {parts.v.begin(), parts.v.begin() + parts.count};
+}
+
+} // namespace
+
+std::vector<Scalar> trace(const ClosurePtr& function, SymbolBuilder& builder, Diagnostics& diagnostics) {
+    return trace_with({SurfaceValue{}}, function, builder, diagnostics);
+}
+
+std::vector<Scalar> trace_at_point(const ClosurePtr& function, SymbolBuilder& builder,
+                                   Diagnostics& diagnostics) {
+    Vec3Value point;
+    constexpr std::array<std::string_view, 3> names{"p.x", "p.y", "p.z"};
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        point.v[i] = {0, builder.input(names[i])};
+    }
+    return trace_with({point}, function, builder, diagnostics);
 }
 
 std::string_view name_of(const Closure& function) {

@@ -78,6 +78,9 @@ Module check(std::shared_ptr<const ast::File> file, const Schema& schema,
 /// surface. What a per-point function may not do (recursion, shapes, unknown loop bounds) is reported, and
 /// the result is empty.
 std::vector<Scalar> trace(const ClosurePtr& function, SymbolBuilder& builder, Diagnostics& diagnostics);
+/// The same for a function of a point, which is the builder's p.x p.y p.z.
+std::vector<Scalar> trace_at_point(const ClosurePtr& function, SymbolBuilder& builder,
+                                   Diagnostics& diagnostics);
 
 /// The name of the `fn` or `let` that a function value came from; empty for a lambda.
 std::string_view name_of(const Closure& function);

@@ -36,11 +36,7 @@ Value Evaluator::run(const code::BuiltinCall& node, Span span, const FramePtr& f
                    ? depends_on_surface(span, "this transform", "transforms are known before a ray is cast")
                    : depends_on_surface(span, "this argument", "this function takes what is known");
     }
-    if (tracing() && !node.overload->per_point &&
-        !std::all_of(arguments.begin(), arguments.end(), is_known)) {
-        return depends_on_surface(span, "this argument",
-                                  "`random` and `noise` of a surface are not supported yet");
-    }
+    locate(span);
     BuiltinRun run{math_, report_, span};
     return node.overload->run(run, arguments);
 }

@@ -106,6 +106,12 @@ Value Evaluator::run(const code::FunctionValue& node, Span, const FramePtr& fram
     return {std::make_shared<const Closure>(Closure{node.function, around})};
 }
 
+void Evaluator::locate(Span span) {
+    if (math_.builder() != nullptr) {
+        math_.builder()->locate(span);
+    }
+}
+
 Value Evaluator::run(const code::Unary& node, Span, const FramePtr& frame) {
     const Components operand = components(eval(*node.operand, frame));
     const ScalarOp op = node.op == ast::UnaryOp::minus ? ScalarOp::neg : ScalarOp::logical_not;
@@ -167,6 +173,7 @@ Value Evaluator::operate(const code::Binary& node, const Value& left, const Valu
     for (std::size_t i = 0; i < divisor.count; ++i) {
         math_.require(ScalarOp::ne, divisor.v[i], {0});
     }
+    locate(span);
     return binary(math_, node.op, left, right);
 }
 

@@ -66,6 +66,7 @@ private:
     /// A loop's body is being recorded.
     bool recording() const { return recording_ != nullptr; }
     bool has_unknowns() const { return math_.builder() != nullptr; }
+    void locate(Span span);
     Value depends_on_surface(Span span, std::string_view what, std::string_view rule);
 
     // eval_expressions.cpp

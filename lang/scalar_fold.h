@@ -1,7 +1,7 @@
 #pragma once
 
-#include "lang/noise.h"
 #include "lang/scalar_math.h"
+#include "runtime/math/noise.h"
 
 #include <cmath>
 #include <limits>
@@ -90,9 +90,9 @@ double fold(double a, [[maybe_unused]] double b, [[maybe_unused]] double c) {
     case ScalarOp::select:
         return a != 0 ? b : c;
     case ScalarOp::random:
-        return random_number(a, b, c);
+        return runtime::random_number(a, b, c);
     case ScalarOp::noise:
-        return noise_number(a, b, c);
+        return runtime::noise_number(a, b, c);
     }
     return std::numeric_limits<double>::quiet_NaN();
 }

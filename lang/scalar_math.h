@@ -40,7 +40,7 @@ enum class ScalarOp {
     logical_or,
     logical_not,
     select,
-    random, ///< this and noise: not in per-point functions yet
+    random,
     noise,
 };
 inline constexpr std::size_t scalar_op_count = static_cast<std::size_t>(ScalarOp::noise) + 1;

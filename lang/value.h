@@ -106,6 +106,8 @@ public:
     virtual std::uint32_t input(std::string_view name) = 0;
     /// `op` is the operator's name as in the runtime's operator table (add, mod, floor, select, ...).
     virtual std::uint32_t apply(std::string_view op, const std::vector<std::uint32_t>& operands) = 0;
+    /// Where the operations that follow were written.
+    virtual void locate(Span /*span*/) {}
 
     /// Whether what is required of unknown values matters; per-point functions go on with whatever comes out.
     virtual bool has_requirements() const { return false; }

@@ -35,8 +35,8 @@ constexpr L window_y(const Camera<R>& camera, const L& row, int height) {
     return (h - 2 * row) / h + L(2 * camera.shift_y);
 }
 
-/// The ray through a point of the window (see window_x and window_y). The projection is an argument of its own, so that a scene that
-/// knows it can pass a constant.
+/// The ray through a point of the window (see window_x and window_y). The projection is an argument of its
+/// own, so that a scene that knows it can pass a constant.
 template <class L, class R>
 constexpr Ray<L> camera_ray(const Camera<R>& camera, Projection projection, const L& x, const L& y) {
     const Vec3<L> offset = (lanes<L>(camera.u) * x + lanes<L>(camera.v) * y) * L(camera.half_height);

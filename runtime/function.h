@@ -1,5 +1,6 @@
 #pragma once
 
+#include "runtime/math/dual.h"
 #include "runtime/math/vec.h"
 
 #include <array>
@@ -9,7 +10,7 @@
 
 namespace scc::runtime {
 
-/// What a per-point function can read.
+/// What a per-point function can read. L is a lane type, or an interval or dual number over one.
 template <class L>
 struct SurfacePoint {
     Vec3<L> p; ///< in object space
@@ -87,7 +88,8 @@ L execute(const Instruction<R>& instruction, const SurfacePoint<L>& point, const
 
 } // namespace detail
 
-/// The registers after running the program; valid until the next call from the same thread.
+/// The registers after running the program, of any type that SurfacePoint has; valid until the next call from
+/// the same thread.
 template <class L, class R>
 const L* run(const FunctionProgram<R>& program, const SurfacePoint<L>& point) {
     thread_local std::vector<L> registers;

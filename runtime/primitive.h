@@ -119,6 +119,30 @@ constexpr Surface<L> transform_surface(const Affine<R>& world_from_object, const
             normalize(transform_normal(object_from_world, object.shading_normal))};
 }
 
+template <class Shape>
+inline constexpr bool is_implicit = requires(const Shape& s) {
+    s.field;
+};
+
+/// An implicit surface's field, over whatever numbers.
+template <class S, class Shape>
+auto field_of(const S& scene, const Shape& shape) {
+    return [&scene, index = shape.field]<class T>(const Vec3<T>& point) {
+        return scene.field_function(index, point);
+    };
+}
+
+/// For what is no mesh, in the shape's space.
+template <class S, class Shape, class L>
+constexpr ShapeHit<L> intersect_shape([[maybe_unused]] const S& scene, const Shape& shape,
+                                      const Ray<L>& ray) {
+    if constexpr (is_implicit<Shape>) {
+        return intersect_implicit(shape, ray, field_of(scene, shape));
+    } else {
+        return shape.intersect(ray);
+    }
+}
+
 namespace detail {
 
 template <class S, class Shape, class L>
@@ -126,6 +150,8 @@ Surface<L> shape_surface(const S& scene, const Shape& shape, const Ray<L>& ray, 
                          [[maybe_unused]] const MaskOf<L>& needed) {
     if constexpr (is_mesh<Shape>) {
         return mesh_surface<S::traits.smooth_normals>(scene.meshes[shape.mesh], ray, hit, needed);
+    } else if constexpr (is_implicit<Shape>) {
+        return implicit_surface(shape, ray, hit, field_of(scene, shape));
     } else {
         return shape.surface(ray, hit);
     }

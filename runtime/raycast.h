@@ -73,6 +73,13 @@ template <class S, std::uint32_t... kind>
 constexpr bool uses_mesh_among(std::integer_sequence<std::uint32_t, kind...>) {
     return ((uses_kind(S::traits, kind) && is_mesh<ShapeOfKind<typename S::Real, kind>>) || ...);
 }
+template <class S, std::uint32_t... kind>
+constexpr bool uses_implicit_among(std::integer_sequence<std::uint32_t, kind...>) {
+    return ((uses_kind(S::traits, kind) && is_implicit<ShapeOfKind<typename S::Real, kind>>) || ...);
+}
+template <class S>
+inline constexpr bool
+    uses_implicit = uses_implicit_among<S>(std::make_integer_sequence<std::uint32_t, primitive_kinds>{});
 template <class S>
 inline constexpr bool
     uses_mesh = uses_mesh_among<S>(std::make_integer_sequence<std::uint32_t, primitive_kinds>{});
@@ -156,7 +163,7 @@ auto find_hit(const S& scene, const PrimitiveOfKind<typename S::Real, kind>& pri
             return found;
         }
     } else {
-        const ShapeHit<L> found = primitive.shape.intersect(to_object(primitive, ray));
+        const ShapeHit<L> found = intersect_shape(scene, primitive.shape, to_object(primitive, ray));
         if constexpr (AnyHit) {
             return found;
         } else {

@@ -60,6 +60,8 @@ public:
             result.rays.primary += one.rays.primary;
             result.rays.shadow += one.rays.shadow;
             result.rays.reflected += one.rays.reflected;
+            result.rays.undecided += one.rays.undecided;
+            result.rays.at_jumps += one.rays.at_jumps;
         }
         result.complete = done_ == tiles_;
         return result;
@@ -80,14 +82,22 @@ private:
     template <class AfterTile>
     void draw_tiles(RayCounts& rays, AfterTile&& after_tile) {
         TilePainter painter(*this, rays);
+        [[maybe_unused]] FieldCounts before;
+        if constexpr (uses_implicit<S>) {
+            before = field_counts;
+        }
         while (!stopped_) {
             const int tile = next_++;
             if (tile >= tiles_) {
-                return;
+                break;
             }
             painter.paint(tile % tiles_across_ * tile_size, tile / tiles_across_ * tile_size);
             ++done_;
             after_tile();
+        }
+        if constexpr (uses_implicit<S>) {
+            rays.undecided += field_counts.undecided - before.undecided;
+            rays.at_jumps += field_counts.at_jumps - before.at_jumps;
         }
     }
 

@@ -25,6 +25,10 @@ struct RayCounts {
     std::uint64_t primary = 0;
     std::uint64_t shadow = 0;
     std::uint64_t reflected = 0;
+    /// Searches for an implicit surface that remained open somewhere (see FieldCounts), and that ended at a
+    /// jump.
+    std::uint64_t undecided = 0;
+    std::uint64_t at_jumps = 0;
 };
 
 struct RenderResult {

@@ -181,6 +181,11 @@ struct SceneBase {
     static L number_function(std::int32_t, const SurfacePoint<L>&) {
         return L(0);
     }
+    /// Of an implicit surface. T is a lane type, or an interval or dual number over one.
+    template <class T>
+    static T field_function(std::int32_t, const Vec3<T>&) {
+        return T(0);
+    }
 };
 
 /// What the kernels are compiled for. Its traits say what it contains; what they deny is not looked at.
@@ -291,6 +296,11 @@ struct DynamicScene {
     L number_function(std::int32_t index, const SurfacePoint<L>& point) const {
         const FunctionProgram<R>& program = functions[static_cast<std::size_t>(index)];
         return run(program, point)[program.results[0]];
+    }
+    template <class T>
+    T field_function(std::int32_t index, const Vec3<T>& p) const {
+        const FunctionProgram<R>& program = functions[static_cast<std::size_t>(index)];
+        return run(program, SurfacePoint<T>{p, {}, {}})[program.results[0]];
     }
 };
 

@@ -84,6 +84,8 @@ private:
         switch (node.op) {
         case Op::neg:
             return math("SUBTRACT", "0.0", a);
+        case Op::square:
+            return math("MULTIPLY", a, a);
         case Op::mod:
             return math("SUBTRACT", a, math("MULTIPLY", b, floor_of_quotient(a, b)));
         case Op::log:
@@ -100,6 +102,9 @@ private:
             return inverse_truth(a);
         case Op::select:
             return selection(node);
+        case Op::random:
+        case Op::noise:
+            return math("ADD", "0.5", "0.0"); // the mean of both; the ledger says so
         default:
             break;
         }

@@ -37,6 +37,8 @@ Account account(const Shape&, bool mirror, bool smooth, bool pattern) {
                 "pixels, for a "
                 "radius of up to 500",
                 0.004};
+    } else if constexpr (std::is_same_v<Shape, Implicit<double>>) {
+        return {Fidelity::dropped, "Blender has no implicit surfaces, and a mesh of it is not made yet"};
     } else if constexpr (std::is_same_v<Shape, Disc<double>>) {
         return {Fidelity::approximated, "a polygon; bound of its rim in pixels", 0.004};
     } else if constexpr (std::is_same_v<Shape, Plane<double>>) {
@@ -132,6 +134,15 @@ private:
             return;
         }
         const std::string& name = scene_.functions[static_cast<std::size_t>(function)].name;
+        for (const ir::Node& node : scene_.functions[static_cast<std::size_t>(function)].nodes) {
+            if (node.kind == ir::Node::Kind::apply &&
+                (node.op == ir::Op::random || node.op == ir::Op::noise)) {
+                add({Fidelity::dropped,
+                     fmt::format("`{}` in `{}` is drawn as its mean, 0.5", row(node.op).name, name)},
+                    fmt::format("per-point {}", field), material.name, material.span);
+                return;
+            }
+        }
         add({Fidelity::approximated,
              fmt::format("`{}` as Math nodes; bound: relative rounding of each operation", name), 6e-8},
             fmt::format("per-point {}", field), material.name, material.span);

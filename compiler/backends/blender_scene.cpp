@@ -170,6 +170,9 @@ private:
         out_.indent();
         for_each_written(scene_, [&](const ir::Object& object) {
             std::string text = std::visit([&](const auto& shape) { return described(shape); }, object.shape);
+            if (text.empty()) {
+                return;
+            }
             text += fmt::format(", name={}", python(object.path));
             const std::string front = python(scene_.materials[object.sides.front].name);
             if (object.sides.front == object.sides.back) {
@@ -220,7 +223,8 @@ private:
         const std::string normals = t.smooth ? ", normals=" + triple(t.normals) : "";
         return fmt::format("type=\"triangle\", points={}{}", triple(t.points), normals);
     }
-    static std::string described(const runtime::Csg<double>&) { return ""; } // not written
+    static std::string described(const runtime::Csg<double>&) { return ""; }      // not written
+    static std::string described(const runtime::Implicit<double>&) { return ""; } // dropped
     std::string described(const runtime::Mesh<double>& m) const {
         return fmt::format("type=\"mesh\", mesh={}", python(scene_.meshes[m.mesh].name));
     }

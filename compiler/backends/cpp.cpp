@@ -99,6 +99,13 @@ template <class R>
 std::string literal(const runtime::Csg<R>& solid) {
     return fmt::format("{{{}}}", solid.root);
 }
+template <class R>
+std::string literal(const runtime::Implicit<R>& implicit) {
+    const runtime::Container<R>& within = implicit.within;
+    return fmt::format("{{{}, {{Container<R>::Kind({}), {}, {}, {}, {}}}}}", implicit.field,
+                       static_cast<int>(within.kind), literal(within.first), literal(within.second),
+                       literal(within.radius), literal(within.radius_to));
+}
 // Members stand in the order of fields(), an optional one's flag right after it (see runtime/field.h).
 template <class Shape>
 std::string literal(const Shape& shape) requires requires {
@@ -182,8 +189,13 @@ private:
     void read_member(const std::string& name);
     void traits();
     void primitives();
-    std::string node_spelling(const ir::Node& node);
-    void functions(std::size_t results, const char* result_type, const char* name);
+    std::string node_spelling(const ir::Node& node, std::string_view point);
+    /// One function of the scene type for those in `which`; its parameter is the point's name in the bodies.
+    void functions(const std::vector<std::size_t>& which, const char* result_type, const char* name,
+                   const char* parameter, std::string_view point);
+    void material_functions(std::size_t results, const char* result_type, const char* name);
+    void field_functions();
+    std::vector<bool> are_fields() const;
     void meshes();
     void scene_type();
     void program();
@@ -289,12 +301,20 @@ void Emitter<R>::primitives() {
     table("CsgNode", "csg_nodes", csg_nodes_of(scene_));
 }
 
-std::string input_spelling(ir::Input input) {
-    return "s." + std::string(ir::name(input));
+/// Which functions are the fields of implicit surfaces.
+template <class R>
+std::vector<bool> Emitter<R>::are_fields() const {
+    std::vector<bool> result(scene_.functions.size());
+    for (const ir::Object& object : scene_.objects) {
+        if (const auto* implicit = std::get_if<runtime::Implicit<double>>(&object.shape)) {
+            result[static_cast<std::size_t>(implicit->field)] = true;
+        }
+    }
+    return result;
 }
 
 template <class R>
-std::string Emitter<R>::node_spelling(const ir::Node& node) {
+std::string Emitter<R>::node_spelling(const ir::Node& node, std::string_view point) {
     switch (node.kind) {
     case ir::Node::Kind::constant:
         if (in_code_) {
@@ -303,7 +323,7 @@ std::string Emitter<R>::node_spelling(const ir::Node& node) {
         function_constants_.push_back(static_cast<R>(node.constant));
         return fmt::format("L(function_constants[{}])", function_constants_.size() - 1);
     case ir::Node::Kind::input:
-        return input_spelling(node.input);
+        return fmt::format("{}{}", point, ir::name(node.input));
     case ir::Node::Kind::apply:
         break;
     }
@@ -312,24 +332,45 @@ std::string Emitter<R>::node_spelling(const ir::Node& node) {
 }
 
 template <class R>
-void Emitter<R>::functions(std::size_t results, const char* result_type, const char* name) {
-    const auto matches = [&](const ir::Function& f) { return f.results.size() == results; };
-    if (std::none_of(scene_.functions.begin(), scene_.functions.end(), matches)) {
+void Emitter<R>::material_functions(std::size_t results, const char* result_type, const char* name) {
+    const std::vector<bool> is_field = are_fields();
+    std::vector<std::size_t> which;
+    for (std::size_t i = 0; i < scene_.functions.size(); ++i) {
+        if (scene_.functions[i].results.size() == results && !is_field[i]) {
+            which.push_back(i);
+        }
+    }
+    functions(which, result_type, name, "const SurfacePoint<L>& s", "s.");
+}
+
+template <class R>
+void Emitter<R>::field_functions() {
+    const std::vector<bool> is_field = are_fields();
+    std::vector<std::size_t> which;
+    for (std::size_t i = 0; i < is_field.size(); ++i) {
+        if (is_field[i]) {
+            which.push_back(i);
+        }
+    }
+    functions(which, "L", "field_function", "const Vec3<L>& p", "");
+}
+
+template <class R>
+void Emitter<R>::functions(const std::vector<std::size_t>& which, const char* result_type, const char* name,
+                           const char* parameter, std::string_view point) {
+    if (which.empty()) {
         return;
     }
     out_.raw_line("template <class L>");
-    out_.line("{} {}(std::int32_t index, const SurfacePoint<L>& s) const {{", result_type, name);
+    out_.line("{} {}(std::int32_t index, {}) const {{", result_type, name, parameter);
     out_.indent();
     out_.raw_line("switch (index) {");
-    for (std::size_t i = 0; i < scene_.functions.size(); ++i) {
+    for (const std::size_t i : which) {
         const ir::Function& function = scene_.functions[i];
-        if (!matches(function)) {
-            continue;
-        }
         out_.line("case {}: {{{}", i, in_code_ ? " // " + comment_text(function.name) : "");
         out_.indent();
         for (std::size_t k = 0; k < function.nodes.size(); ++k) {
-            out_.line("const L v{} = {};", k, node_spelling(function.nodes[k]));
+            out_.line("const L v{} = {};", k, node_spelling(function.nodes[k], point));
         }
         std::string returned;
         for (const std::uint32_t result : function.results) {
@@ -363,8 +404,9 @@ void Emitter<R>::scene_type() {
     member("Camera<R>", "camera", convert(scene_.camera, R{}));
     member("Rgb<R>", "ambient", convert(scene_.ambient, R{}));
     member("Rgb<R>", "background", convert(scene_.background, R{}));
-    functions(3, "Rgb<L>", "color_function");
-    functions(1, "L", "number_function");
+    material_functions(3, "Rgb<L>", "color_function");
+    material_functions(1, "L", "number_function");
+    field_functions();
     if (!function_constants_.empty()) {
         out_.line("static inline std::array<R, {}> function_constants;", function_constants_.size());
         values_.add(std::span<const R>(function_constants_));

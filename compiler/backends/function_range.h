@@ -18,7 +18,9 @@ struct Range {
 
 using InputRanges = std::array<Range, ir::input_count>;
 
-/// For every node of the function a range that contains its values for all inputs in `inputs`.
+/// For every node of the function a range that contains its values for all inputs in `inputs`: the runtime's
+/// intervals in long double, rounded to the nearest double, which is what is good to write into other
+/// programs.
 std::vector<Range> node_ranges(const ir::Function& function, const InputRanges& inputs);
 
 /// Whether the operator's result is 1 or 0.

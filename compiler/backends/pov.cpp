@@ -5,6 +5,7 @@
 #include "compiler/backends/pov_material.h"
 #include "compiler/backends/pov_shape.h"
 #include "compiler/backends/pov_text.h"
+#include "compiler/field_bounds.h"
 #include "compiler/ir/objects.h"
 #include "compiler/writer.h"
 
@@ -191,7 +192,16 @@ private:
 
     void emit_shape(const ir::Object& object, bool whole) {
         const Placement placement = place(object, scene_, frame_);
-        const PovShape shape = pov_shape(object.shape, placement, mesh_names_);
+        PovField field;
+        const auto* implicit = std::get_if<runtime::Implicit<double>>(&object.shape);
+        if (implicit != nullptr && !describe_field(object, *implicit, field)) {
+            return;
+        }
+        PovShape shape = pov_shape(object.shape, placement, mesh_names_, field);
+        if (implicit != nullptr) {
+            shape.precision = field.precision;
+            shape.bound = field.bound;
+        }
         declare_mesh_of(object);
         objects_.line("// {}", comment_text(object.path + line_of(object.span)));
         objects_.line("{} {{", shape.keyword);
@@ -242,6 +252,37 @@ private:
             add("interior_texture", shape.reversed ? front : back);
         }
         return lines;
+    }
+
+    /// False: it is dropped.
+    bool describe_field(const ir::Object& object, const runtime::Implicit<double>& implicit,
+                        PovField& field) {
+        const auto drop = [&](std::string_view why) {
+            note(Fidelity::dropped, std::string(implicit.name), object.path, object.span, std::string(why));
+            return false;
+        };
+        const PovFunctions::Declared& declared = materials_.functions().field(implicit.field);
+        if (declared.name.empty()) {
+            return drop(declared.obstacle);
+        }
+        const ir::Function& function = scene_.functions[static_cast<std::size_t>(implicit.field)];
+        const Steepness steepness = gradient_bound(function, pov_field_box(implicit.within));
+        if (steepness.at_zero) {
+            return drop(
+                "POV-Ray needs a bound of the field's slope, which has none where the field may be 0");
+        }
+        field.function = declared.name;
+        field.steepest_slope = steepness.bound;
+        field.precision =
+            "isosurface; POV-Ray stops where its steps are small; bound relative to the container";
+        field.bound = pov_isosurface_accuracy;
+        if (steepness.elsewhere) {
+            field.precision =
+                "isosurface; the field's slope has no bound in places where it is not 0, near which "
+                "POV-Ray may miss the surface; bound in radiance at such pixels";
+            field.bound = 1;
+        }
+        return true;
     }
 
     void write_textures(const std::vector<TextureLine>& lines, bool in_world) {

@@ -59,6 +59,16 @@ bool PovExpression::reads(ir::Input first, ir::Input last) const {
     return false;
 }
 
+std::string_view PovExpression::unspoken() const {
+    for (std::uint32_t i = 0; i <= result_; ++i) {
+        const Node& node = function_.nodes[i];
+        if (needed_[i] && node.kind == Node::Kind::apply && ir::row(node.op).sdl.empty()) {
+            return ir::row(node.op).name;
+        }
+    }
+    return "";
+}
+
 void PovExpression::choose_shared() {
     std::vector<std::uint64_t> size(result_ + 1), uses(result_ + 1);
     std::vector<std::uint32_t> depth(result_ + 1);

@@ -21,6 +21,8 @@ public:
     bool reads_p() const { return reads(ir::Input::p_x, ir::Input::p_z); }
     bool reads_world() const { return reads(ir::Input::world_x, ir::Input::world_z); }
     bool reads_normal() const { return reads(ir::Input::n_x, ir::Input::n_z); }
+    /// An operator that POV-Ray does not have, or "".
+    std::string_view unspoken() const;
     /// POV-Ray's functions take a limited number of parameters and nest to a limited depth.
     bool fits() const;
 

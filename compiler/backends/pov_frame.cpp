@@ -84,6 +84,18 @@ std::string PovFrame::texture_transform() const {
     return text;
 }
 
+namespace {
+
+/// Surfaces that shadow and mirror themselves at distances far below their size.
+bool has_folds(const ir::Scene& scene) {
+    return !scene.meshes.empty() ||
+           std::any_of(scene.objects.begin(), scene.objects.end(), [](const ir::Object& object) {
+               return std::holds_alternative<runtime::Implicit<double>>(object.shape);
+           });
+}
+
+} // namespace
+
 PovFrame choose_frame(const ir::Scene& scene) {
     PovFrame frame;
     Bounds<double> around;
@@ -91,8 +103,9 @@ PovFrame choose_frame(const ir::Scene& scene) {
     if (!(extent > 0) || !std::isfinite(extent)) {
         return frame;
     }
-    const double wanted = scene.meshes.empty() ? comfortable_size : comfortable_mesh_size;
-    const double smallest = scene.meshes.empty() ? 1 : comfortable_mesh_size / 2;
+    const bool folds = has_folds(scene);
+    const double wanted = folds ? comfortable_mesh_size : comfortable_size;
+    const double smallest = folds ? comfortable_mesh_size / 2 : 1;
     if (extent < smallest || extent > 1000) {
         frame.scale = nearest_power_of_two(wanted / extent);
     }

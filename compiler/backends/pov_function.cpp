@@ -1,5 +1,6 @@
 #include "compiler/backends/pov_function.h"
 
+#include "compiler/backends/function_program.h"
 #include "compiler/backends/pov_expression.h"
 
 #include <fmt/core.h>
@@ -126,19 +127,21 @@ std::string unit_interval(const std::string& value, double low, double high) {
 
 /// The largest distance of sampled values from the range; a lower bound of what cutting does.
 double excess(const ir::Function& function, std::uint32_t node, const InputRanges& inputs, Range range) {
+    const auto program = program_of<double>(function);
     double largest = 0;
     for (int sample = 0; sample < 4096; ++sample) {
-        InputRanges point;
-        for (std::size_t i = 0; i < point.size(); ++i) {
+        std::array<double, ir::input_count> x{};
+        for (std::size_t i = 0; i < x.size(); ++i) {
             constexpr double primes[] = {0.7548776662, 0.5698402910, 0.8191725134, 0.6710436067, 0.5497004779,
                                          0.4502995221, 0.8566748838, 0.7338918566, 0.6287067210};
             const double low = std::max(inputs[i].min, -1000.0), high = std::min(inputs[i].max, 1000.0);
             const double fraction = sample * primes[i] - std::floor(sample * primes[i]);
-            point[i].min = point[i].max = low + fraction * (high - low);
+            x[i] = low + fraction * (high - low);
         }
-        const Range value = node_ranges(function, point)[node];
-        if (value.min == value.max) {
-            largest = std::max({largest, range.min - value.min, value.max - range.max});
+        const runtime::SurfacePoint<double> point{{x[0], x[1], x[2]}, {x[3], x[4], x[5]}, {x[6], x[7], x[8]}};
+        const double value = run(program, point)[node];
+        if (!std::isnan(value)) {
+            largest = std::max({largest, range.min - value, value - range.max});
         }
     }
     return std::min(largest, 1e30);
@@ -175,6 +178,9 @@ const PovFunctions::Declared& PovFunctions::declare(std::int32_t index, std::uin
     declared.reads_world = expression.reads_world();
     if (expression.reads_normal()) {
         declared.obstacle = "POV-Ray's functions cannot read the normal n";
+    } else if (!expression.unspoken().empty()) {
+        declared.obstacle = expression.unspoken() == "random" ? "POV-Ray's functions have no `random`"
+                                                              : "POV-Ray's functions have another `noise`";
     } else if (!expression.fits()) {
         declared.obstacle = "it needs more parameters or deeper nesting than POV-Ray's functions have";
     } else {

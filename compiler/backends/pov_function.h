@@ -52,12 +52,17 @@ public:
     };
     std::pair<Paint, Outcome> paint(std::int32_t function, const Place& place);
 
-private:
     struct Declared {
         std::string name; ///< empty: it cannot be written, for this reason:
         std::string_view obstacle;
         bool reads_p = false, reads_world = false;
     };
+    /// The field of an implicit surface, as a function of x, y, z.
+    const Declared& field(std::int32_t function) {
+        return declare(function, functions_[static_cast<std::size_t>(function)].results[0], "");
+    }
+
+private:
     struct Scaled {
         std::string t;
         double low = 0, high = 0;

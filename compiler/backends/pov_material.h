@@ -26,6 +26,8 @@ public:
     };
     Use use(std::uint32_t material, const ir::Object& object);
 
+    PovFunctions& functions() { return functions_; }
+
 private:
     Use declare(std::uint32_t material, const std::string& name,
                 const runtime::Affine<double>* world_from_object);

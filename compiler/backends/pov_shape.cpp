@@ -20,6 +20,7 @@ constexpr double float_rounding = 6e-8;
 struct ToPov {
     const Placement& placement;
     const std::vector<std::string>& mesh_names;
+    const PovField& field;
 
     std::string at(const Vec3<double>& p) const { return pov_vector(placement.shape_scale * p); }
     std::string size(double x) const { return number(placement.shape_scale * x); }
@@ -50,6 +51,36 @@ struct ToPov {
     PovShape operator()(const runtime::Triangle<double>& t) const { return t.smooth ? smooth(t) : flat(t); }
     PovShape operator()(const runtime::Csg<double>&) const { return {}; } // written by its members
     PovShape operator()(const runtime::Mesh<double>& m) const { return {"object", {mesh_names[m.mesh]}}; }
+
+    /// POV-Ray knows spheres and boxes as containers; what others hold is cut out of a box around them.
+    PovShape operator()(const runtime::Implicit<double>& i) const {
+        using Kind = runtime::Container<double>::Kind;
+        const PovShape container = i.within.visit([&](const auto& shape) { return (*this)(shape); });
+        const runtime::Bounds<double> box = pov_field_box(i.within);
+        const bool is_cut = i.within.kind == Kind::cylinder || i.within.kind == Kind::cone;
+        const std::string around = is_cut ? fmt::format("box {{ {}, {} }}", at(box.min), at(box.max))
+                                          : fmt::format("{} {{ {} }}", container.keyword, container.lines[0]);
+        const double k = placement.shape_scale;
+        const std::string point = k == 1 ? "x, y, z" : fmt::format("x/{0}, y/{0}, z/{0}", number(k));
+        const double size = largest_component(box.max - box.min);
+        const double slope = field.steepest_slope > 0 ? field.steepest_slope : 1;
+        std::vector<std::string> lines{
+            fmt::format("function {{ {}({}) }}", field.function, point),
+            fmt::format("contained_by {{ {} }}", around),
+            fmt::format("max_gradient {}", number(slope / k)),
+            fmt::format("accuracy {}", number(size * k * pov_isosurface_accuracy)),
+            // Else a ray that starts on the surface finds that point alone, and is blocked by nothing behind
+            // it.
+            "all_intersections",
+        };
+        if (!is_cut) {
+            return {"isosurface", lines};
+        }
+        lines.insert(lines.begin(), "isosurface {");
+        lines.emplace_back("}");
+        lines.push_back(fmt::format("{} {{ {} }}", container.keyword, container.lines[0]));
+        return {"intersection", lines};
+    }
 
     /// Written where it will stand: POV-Ray reorders the corners when it transforms a triangle, and may turn
     /// its sides over.
@@ -136,8 +167,19 @@ void list_faces(Writer& out, std::string_view name, std::span<const std::uint32_
 } // namespace
 
 PovShape pov_shape(const ir::Shape& shape, const Placement& placement,
-                   const std::vector<std::string>& mesh_names) {
-    return std::visit(ToPov{placement, mesh_names}, shape);
+                   const std::vector<std::string>& mesh_names, const PovField& field) {
+    return std::visit(ToPov{placement, mesh_names, field}, shape);
+}
+
+runtime::Bounds<double> pov_field_box(const runtime::Container<double>& container) {
+    runtime::Bounds<double> box = container.bounds();
+    if (container.kind == runtime::Container<double>::Kind::cylinder ||
+        container.kind == runtime::Container<double>::Kind::cone) {
+        // Faces that coincide with the container's would be drawn at random.
+        const Vec3<double> margin = (box.max - box.min) * 1e-3;
+        box = {box.min - margin, box.max + margin};
+    }
+    return box;
 }
 
 void declare_mesh(const ir::Mesh& mesh, const std::string& name, Writer& out) {

@@ -19,10 +19,24 @@ struct PovShape {
     double bound = 0;        ///< for `precision`
 };
 
+/// Of an isosurface, relative to the container's size.
+inline constexpr double pov_isosurface_accuracy = 1e-9;
+
+/// What an implicit surface needs of its field.
+struct PovField {
+    std::string function; ///< its name in SDL
+    double steepest_slope = 0;
+    std::string precision;
+    double bound = 0; ///< for `precision`
+};
+
 /// `mesh_names` holds the identifiers of the scene's meshes, which are declared at the scale of their
 /// placements.
 PovShape pov_shape(const ir::Shape& shape, const Placement& placement,
-                   const std::vector<std::string>& mesh_names);
+                   const std::vector<std::string>& mesh_names, const PovField& field);
+
+/// In which POV-Ray looks at the field of an implicit surface.
+runtime::Bounds<double> pov_field_box(const runtime::Container<double>& container);
 
 /// `#declare NAME = mesh2 { ... }`
 void declare_mesh(const ir::Mesh& mesh, const std::string& name, Writer& out);

@@ -1,5 +1,6 @@
 #include "compiler/backends/render.h"
 
+#include "compiler/backends/function_program.h"
 #include "compiler/backends/kernels.h"
 #include "compiler/backends/needs_double.h"
 #include "compiler/backends/precision_trial.h"
@@ -14,32 +15,6 @@
 namespace scc::compiler {
 
 namespace {
-
-template <class R>
-runtime::FunctionProgram<R> program_of(const ir::Function& function) {
-    runtime::FunctionProgram<R> program;
-    for (const ir::Node& node : function.nodes) {
-        runtime::Instruction<R> instruction;
-        switch (node.kind) {
-        case ir::Node::Kind::constant:
-            instruction.code = runtime::Opcode::constant;
-            instruction.constant = static_cast<R>(node.constant);
-            break;
-        case ir::Node::Kind::input:
-            instruction.code = static_cast<runtime::Opcode>(static_cast<int>(runtime::Opcode::p_x) +
-                                                            static_cast<int>(node.input));
-            break;
-        case ir::Node::Kind::apply:
-            instruction.code = static_cast<runtime::Opcode>(static_cast<int>(runtime::Opcode::n_z) + 1 +
-                                                            static_cast<int>(node.op));
-            instruction.operands = node.operands;
-            break;
-        }
-        program.instructions.push_back(instruction);
-    }
-    program.results = function.results;
-    return program;
-}
 
 using Meshes = std::vector<BuiltMesh>;
 using Render = decltype(host::Drawable::render);

@@ -159,6 +159,10 @@ struct Measure {
         const double across = length(p - height * n);
         include_distance(std::hypot(height, across - clamped(across, d.hole, d.radius)));
     }
+    void operator()(const runtime::Implicit<double>& i) { // anywhere in the container
+        include_box(i.bounds());
+        range.near = 0;
+    }
     void operator()(const runtime::Triangle<double>& t) { include_triangle(t.points); }
     /// No nearer than the nearest of its members, no farther than its box.
     void operator()(const runtime::Csg<double>& solid) {

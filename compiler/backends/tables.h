@@ -94,6 +94,14 @@ runtime::Csg<R> convert(const runtime::Csg<double>& solid, R) {
     return {solid.root};
 }
 
+template <class R>
+runtime::Implicit<R> convert(const runtime::Implicit<double>& implicit, R real) {
+    const runtime::Container<double>& within = implicit.within;
+    return {implicit.field,
+            {static_cast<typename runtime::Container<R>::Kind>(within.kind), convert(within.first, real),
+             convert(within.second, real), convert(within.radius, real), convert(within.radius_to, real)}};
+}
+
 /// Calls `visit` with an object's Bare or Placed primitive.
 template <class R, class Source, class Visit>
 void visit_primitive(const Source& source, const runtime::Affine<double>& place, const runtime::Tag& tag,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "lang/source.h"
+
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -42,6 +44,7 @@ struct Node {
 struct Function {
     std::string name; ///< the author's, or made from the field it stands in
     std::vector<Node> nodes;
+    std::vector<lang::Span> places;            ///< where each node's operation was written
     std::vector<std::uint32_t> results;        ///< 1 for a number, 3 for a colour
     bool reads(Input first, Input last) const; ///< some node reads an input of this range
 };

@@ -122,6 +122,11 @@ std::string shape_text(const Shape& shape, const Scene& scene) {
         return fmt::format("{} {{ {} }}", Shape::name, fields);
     } else if constexpr (std::is_same_v<Shape, runtime::Csg<double>>) {
         return tree_text(scene, shape.root);
+    } else if constexpr (std::is_same_v<Shape, runtime::Implicit<double>>) {
+        const std::string within =
+            shape.within.visit([&](const auto& container) { return shape_text(container, scene); });
+        return fmt::format("{} {{ field = {}, within = {} }}", Shape::name,
+                           text(runtime::Varying<double>{0, shape.field}, scene), within);
     } else {
         return fmt::format("{} {{ {} }}", Shape::name, quote(Language::cpp, scene.meshes[shape.mesh].name));
     }

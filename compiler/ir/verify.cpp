@@ -79,6 +79,10 @@ void verify_object(const Object& object, const Scene& scene) {
     if (const auto* solid = std::get_if<runtime::Csg<double>>(&object.shape)) {
         verify_solid(object, *solid, scene);
     }
+    if (const auto* implicit = std::get_if<runtime::Implicit<double>>(&object.shape)) {
+        require(implicit->field >= 0, "an implicit surface has a field", object.path);
+        verify_varying(implicit->field, 1, scene, object.path);
+    }
 }
 
 void verify_array(const ObjectArray& array, const Scene& scene) {

@@ -76,8 +76,19 @@ void drop_materials(ir::Scene& scene) {
     });
 }
 
+/// No array holds implicit surfaces.
+template <class Visit>
+void for_each_field(ir::Scene& scene, Visit visit) {
+    for (ir::Object& object : scene.objects) {
+        if (auto* implicit = std::get_if<runtime::Implicit<double>>(&object.shape)) {
+            visit(implicit->field);
+        }
+    }
+}
+
 void drop_functions(ir::Scene& scene) {
     std::vector<bool> used(scene.functions.size());
+    for_each_field(scene, [&](std::int32_t field) { used[static_cast<std::size_t>(field)] = true; });
     for (ir::Material& material : scene.materials) {
         for_each_function_index(material.phong, [&](std::int32_t index) {
             if (index >= 0) {
@@ -86,6 +97,9 @@ void drop_functions(ir::Scene& scene) {
         });
     }
     const auto renumbered = keep(scene.functions, used);
+    for_each_field(scene, [&](std::int32_t& field) {
+        field = static_cast<std::int32_t>(renumbered[static_cast<std::size_t>(field)]);
+    });
     for (ir::Material& material : scene.materials) {
         for_each_function_index(material.phong, [&](std::int32_t& index) {
             if (index >= 0) {

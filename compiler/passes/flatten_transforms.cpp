@@ -121,6 +121,10 @@ bool flatten(runtime::Csg<double>&, const Affine<double>&) {
     return false; // always in world coordinates
 }
 
+bool flatten(runtime::Implicit<double>&, const Affine<double>&) {
+    return false; // the field is a function of the object's own coordinates
+}
+
 // A function of the object's own coordinates needs them at run time.
 bool reads_object_space(const ir::Scene& scene, std::uint32_t material) {
     const runtime::Phong<double>& p = scene.materials[material].phong;

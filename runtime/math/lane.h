@@ -132,6 +132,10 @@ constexpr T absolute(T x) {
         return __builtin_fabsl(x);
     }
 }
+template <Lane L>
+constexpr L square(const L& x) {
+    return x * x;
+}
 template <std::floating_point T>
 T square_root(T x) {
     return std::sqrt(x);
@@ -174,14 +178,6 @@ T opaque(T x) {
 template <std::floating_point T>
 T power(T x, std::type_identity_t<T> y) {
     return std::pow(opaque(x), opaque(y));
-}
-template <std::floating_point T>
-T sine(T x) {
-    return std::sin(opaque(x));
-}
-template <std::floating_point T>
-T cosine(T x) {
-    return std::cos(opaque(x));
 }
 template <std::floating_point T>
 T tangent(T x) {

@@ -246,14 +246,6 @@ Pack<T, N> arc_tangent(Pack<T, N> y, std::type_identity_t<Pack<T, N>> x) {
     return detail::each_lane<T, N>([&](int i) { return arc_tangent(T(y.v[i]), T(x.v[i])); });
 }
 template <class T, int N>
-Pack<T, N> sine(Pack<T, N> x) {
-    return detail::each_lane<T, N>([&](int i) { return sine(T(x.v[i])); });
-}
-template <class T, int N>
-Pack<T, N> cosine(Pack<T, N> x) {
-    return detail::each_lane<T, N>([&](int i) { return cosine(T(x.v[i])); });
-}
-template <class T, int N>
 Pack<T, N> tangent(Pack<T, N> x) {
     return detail::each_lane<T, N>([&](int i) { return tangent(T(x.v[i])); });
 }

@@ -5,6 +5,7 @@
 #include "runtime/shapes/csg.h"
 #include "runtime/shapes/cylinder.h"
 #include "runtime/shapes/disc.h"
+#include "runtime/shapes/implicit.h"
 #include "runtime/shapes/mesh.h"
 #include "runtime/shapes/plane.h"
 #include "runtime/shapes/sphere.h"
@@ -17,7 +18,8 @@ struct TypeList {};
 
 /// The one list of shapes. A new shape is its header and a row here.
 template <class R>
-using Primitives = TypeList<Sphere<R>, Box<R>, Plane<R>, Cylinder<R>, Cone<R>, Disc<R>, Triangle<R>, Mesh<R>>;
+using Primitives =
+    TypeList<Sphere<R>, Box<R>, Plane<R>, Cylinder<R>, Cone<R>, Disc<R>, Triangle<R>, Mesh<R>, Implicit<R>>;
 
 template <class List, class Last>
 struct Appended;

@@ -160,6 +160,7 @@ void fill(DynamicScene<R>& scene, Random<R>& random, int count) {
         if constexpr (!is_mesh<decltype(shape)>) {
             if constexpr (is_bounded<decltype(shape)>) {
                 randomize(shape, random, id % 2 == 0 ? 10 : 1);
+                add_field(shape, scene);
             } else {
                 shape.offset = -15;
             }

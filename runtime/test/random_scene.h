@@ -92,6 +92,37 @@ void randomize(Triangle<R>& s, Random<R>& random, double distance) {
     } while (length(cross(s.points[1] - s.points[0], s.points[2] - s.points[0])) < R(0.5));
 }
 
+template <class R>
+void randomize(Implicit<R>& s, Random<R>& random, double distance) {
+    s.within = Container<R>::of(Sphere<R>{random.vector(distance), random.number(0.3, 2)});
+}
+/// Gives an implicit surface a ball in its container as its field; of other shapes nothing.
+template <class Shape, class R>
+void add_field(Shape& shape, DynamicScene<R>& scene) {
+    if constexpr (is_implicit<Shape>) {
+        const Container<R>& within = shape.within;
+        const auto constant = [](R value) { return Instruction<R>{Opcode::constant, {}, value}; };
+        shape.field = static_cast<std::int32_t>(scene.functions.size());
+        scene.functions.push_back({{{Opcode::p_x},
+                                    {Opcode::p_y},
+                                    {Opcode::p_z},
+                                    constant(within.first.x),
+                                    constant(within.first.y),
+                                    constant(within.first.z),
+                                    {Opcode::sub, {0, 3}},
+                                    {Opcode::sub, {1, 4}},
+                                    {Opcode::sub, {2, 5}},
+                                    {Opcode::square, {6}},
+                                    {Opcode::square, {7}},
+                                    {Opcode::square, {8}},
+                                    {Opcode::add, {9, 10}},
+                                    {Opcode::add, {12, 11}},
+                                    constant(within.radius * within.radius * R(0.75)),
+                                    {Opcode::sub, {13, 14}}},
+                                   {15}});
+    }
+}
+
 /// A sphere of 20 4^level triangles, counter-clockwise from outside.
 inline MeshStorage ball_mesh(int level, double radius, const Vec3<double>& center) {
     const double g = (1 + std::sqrt(5.0)) / 2;
@@ -143,6 +174,7 @@ struct SingleShape {
             scene.meshes.push_back(mesh.data());
         } else {
             randomize(shape, random, placed ? 1 : distance);
+            add_field(shape, scene);
         }
         if (placed) {
             const Affine<long double> map = affine_cast<long double>(random.map(distance));

@@ -49,9 +49,11 @@ struct Crowd {
                 const Tag tag{id, {id % 4, (id / 2) % 4}};
                 if (i % 2 == 0) {
                     randomize_near(shape, random, 4);
+                    add_field(shape, scene);
                     scene.add(Bare<Shape>{shape, tag});
                 } else {
                     randomize_near(shape, random, 1);
+                    add_field(shape, scene);
                     const Affine<double> map = random.map(4);
                     scene.add(
                         Placed<Shape, R>{shape, affine_cast<R>(map), affine_cast<R>(inverse(map)), tag});

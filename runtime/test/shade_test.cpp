@@ -44,7 +44,8 @@ Scene floor_scene(const Phong<double>& material) {
 Rgb<double> radiance(const Scene& scene, const RenderSettings& settings, RayCounts& counts, Ray<double> ray) {
     std::array<Ray<double>, 1> rays{ray};
     std::array<Rgb<double>, 1> colors;
-    detail::Shader<Scene, double>(scene, settings, counts).radiance(rays, Apex::none, all_candidates, {true}, colors);
+    detail::Shader<Scene, double>(scene, settings, counts)
+        .radiance(rays, Apex::none, all_candidates, {true}, colors);
     return colors[0];
 }
 

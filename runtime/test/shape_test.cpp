@@ -103,9 +103,9 @@ struct WithBounds;
 template <class... Shape>
 struct WithBounds<TypeList<Shape...>> : Joined<If<is_bounded<Shape>, Shape>...> {};
 template <class>
-struct WithoutMeshes;
+struct WithFormula;
 template <class... Shape>
-struct WithoutMeshes<TypeList<Shape...>> : Joined<If<!is_mesh<Shape>, Shape>...> {};
+struct WithFormula<TypeList<Shape...>> : Joined<If<!is_mesh<Shape> && !is_implicit<Shape>, Shape>...> {};
 
 template <class Shape>
 class BoundedShape : public EveryShape<Shape> {};
@@ -115,7 +115,7 @@ TYPED_TEST_SUITE(BoundedShape, BoundedShapes);
 /// Shapes whose surface has a formula, in precisions that long double can judge.
 template <class Shape>
 class ShapeWithFormula : public EveryShape<Shape> {};
-using ShapesWithFormulas = WithoutMeshes<Joined<Primitives<float>, Primitives<double>>::list>::types;
+using ShapesWithFormulas = WithFormula<Joined<Primitives<float>, Primitives<double>>::list>::types;
 TYPED_TEST_SUITE(ShapeWithFormula, ShapesWithFormulas);
 
 TYPED_TEST(BoundedShape, HitIsInsideTheBounds) {
@@ -243,6 +243,7 @@ TYPED_TEST(EveryShape, MovingRayAndObjectTogetherKeepsTheDistance) {
         const Affine<long double> old = affine_cast<long double>(single.world_from_object);
         DynamicScene<R> moved;
         moved.meshes = single.scene.meshes;
+        moved.functions = single.scene.functions;
         moved.add(Placed<TypeParam, R>{
             single.shape, affine_cast<R>(compose(map, old)), affine_cast<R>(inverse(compose(map, old))), {}});
         for (int i = 0; i < 10; ++i) {

@@ -31,6 +31,10 @@ const std::map<Diag, Case>& cases() {
                                     "  if (i == 0) sphere { } else union { nest(i - 1) }\nnest(300)\n";
     static const std::map<Diag, Case> rows{
         {Diag::impossible_shape, {"cylinder { from = (0, 1, 0), to = (0, 1, 0) }\n"}},
+        {Diag::unusable_container,
+         {"implicit { field = fn(p: vec3) = p.x, within = cylinder { caps = false } }\n"}},
+        {Diag::unbounded_field,
+         {"fn f(p: vec3) -> number = p.y + 1 / (p.x - 0.3)\nimplicit { field = f, within = sphere { } }\n"}},
         {Diag::singular_transform,
          {"group {\n  name = \"table\"\n  transform = scale(2e-8, 1, 1)\n  group {\n    transform = "
           "scale(2e-8, 1, 1)\n"
