@@ -171,7 +171,8 @@ private:
                 return fmt::format("{} = {:.6g}", name, at == 0 ? 0.0 : at);
             }
         }
-        return fmt::format("dot(({:.3g}, {:.3g}, {:.3g}), p) = {:.6g}", normal.x, normal.y, normal.z, offset);
+        return fmt::format("dot(({:.3g}, {:.3g}, {:.3g}), p) = {:.6g}", normal.x + 0.0, normal.y + 0.0,
+                           normal.z + 0.0, offset);
     }
 
     const ir::Scene& scene_;

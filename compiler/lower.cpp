@@ -33,8 +33,6 @@ namespace {
 /// Groups share what they hold, so a few lines can stand for more objects than any memory has.
 constexpr std::size_t most_objects = 20'000'000;
 
-/// The kernels and the exporters go down a solid's tree by recursion.
-constexpr int deepest_solid = 256;
 constexpr std::array<std::string_view, 4> container_names{
     runtime::Sphere<double>::name, runtime::Box<double>::name, runtime::Cylinder<double>::name,
     runtime::Cone<double>::name};
@@ -99,7 +97,6 @@ private:
         const Thing* inherited_material;
         std::string_view solid; ///< the author's word for what it is an operand of
         bool inverted;
-        int depth;
     };
     bool add_operand(const Thing& thing, const Operand& here);
     bool add_operation(const Thing& thing, runtime::CsgOp op, const Operand& here);
@@ -476,7 +473,7 @@ void ObjectLowering::add_solid(const Thing& thing, const std::string& path,
     const auto root = static_cast<std::uint32_t>(scene_.csg_nodes.size());
     const std::size_t members = scene_.members.size();
     const bool sound =
-        add_operation(thing, *csg_op(thing), {path, world_from_parent, inherited_material, word, false, 1});
+        add_operation(thing, *csg_op(thing), {path, world_from_parent, inherited_material, word, false});
     const auto take_back = [&] {
         scene_.csg_nodes.resize(root);
         scene_.members.resize(members);
@@ -504,11 +501,8 @@ void ObjectLowering::add_solid(const Thing& thing, const std::string& path,
 }
 
 /// Appends a subtree, or nothing where it is empty; false where something in it is wrong, which is reported.
+/// By recursion, as all that walks these trees: the language nests things at most 200 deep.
 bool ObjectLowering::add_operation(const Thing& thing, runtime::CsgOp op, const Operand& here) {
-    if (here.depth > deepest_solid) {
-        diagnostics_.report(Diag::deep_solid, thing.span, deepest_solid);
-        return false;
-    }
     const std::size_t root = scene_.csg_nodes.size();
     scene_.csg_nodes.push_back({op});
     const std::string parent_path = here.path + "/";
@@ -524,7 +518,7 @@ bool ObjectLowering::add_operation(const Thing& thing, runtime::CsgOp op, const 
             const bool removed = op == runtime::CsgOp::subtract && operands > 0;
             const std::size_t before = scene_.csg_nodes.size();
             sound &= add_operand(one, {path, here.world_from_parent, here.inherited_material, here.solid,
-                                       here.inverted != removed, here.depth + 1});
+                                       here.inverted != removed});
             const bool nothing = scene_.csg_nodes.size() == before;
             empty = operands++ == 0                   ? nothing
                     : op == runtime::CsgOp::unite     ? empty && nothing
@@ -548,8 +542,8 @@ bool ObjectLowering::add_operand(const Thing& thing, const Operand& here) {
     const lang::FieldValue* own = thing.find("material");
     const Thing* material = own != nullptr ? to_thing(own->value).get() : here.inherited_material;
     const auto op = csg_op(thing);
-    const Operand within{here.path,     *place,    material, op ? thing.constructor->name : here.solid,
-                         here.inverted, here.depth};
+    const Operand within{here.path, *place, material, op ? thing.constructor->name : here.solid,
+                         here.inverted};
     return thing.constructor->takes_children
                ? add_operation(thing, op.value_or(runtime::CsgOp::unite), within)
                : add_member(thing, within);

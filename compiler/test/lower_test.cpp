@@ -1,3 +1,4 @@
+#include "compiler/coincident_faces.h"
 #include "compiler/lower.h"
 #include "compiler/test/support.h"
 
@@ -169,14 +170,18 @@ TEST(Lower, PlanesBoundASolidAlongTheAxes) {
 
 TEST(Lower, WarnsOfFacesThatCoincideOnlyWhereTheyDo) {
     const auto warned = [](const std::string& solid) {
-        return compile_shapes(solid).messages.find("[coincident-faces]") != std::string::npos;
+        const Compiled c = compile_shapes(solid);
+        EXPECT_TRUE(c.fine) << c.messages;
+        lang::Diagnostics diagnostics;
+        check_coincident_faces(c.scene, diagnostics);
+        return !diagnostics.sorted().empty();
     };
     const std::string block = "box { min = (-1, 0, -1), max = (1, 1, 1) }";
     EXPECT_TRUE(warned("difference { " + block + ", box { min = (0, 0, 0), max = (2, 0.5, 2) } }"));
     EXPECT_TRUE(warned("difference { " + block +
                        ", cone { from = (0, 0.5, 0), to = (0, 1, 0), "
                        "radius_from = 0, radius_to = 0.5 } }"));
-    EXPECT_TRUE(warned("difference { " + block + ", plane { normal = (0, -1, 0) } }") == false);
+    EXPECT_FALSE(warned("difference { " + block + ", plane { } }"));
     EXPECT_TRUE(warned("intersection { " + block + ", plane { offset = 1 } }"));
     // Beside each other, facing each other, and both taken away.
     EXPECT_FALSE(warned("difference { " + block + ", box { min = (2, 0, 0), max = (3, 0.5, 2) } }"));

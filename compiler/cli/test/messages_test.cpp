@@ -27,8 +27,6 @@ const std::map<Diag, Case>& cases() {
                                                            "-o",     "s.py",    "--allow-drop"};
     static const char* tiny = "sphere { radius = 1e-9 }\npoint_light { position = (0, 1e-8, 5e-8) }\n"
                               "perspective_camera { eye = (0, 0, 5e-8), near = 1e-9, far = 1e-6 }\n";
-    static const char* deep_solid = "fn nest(i: number) -> shape =\n"
-                                    "  if (i == 0) sphere { } else union { nest(i - 1) }\nnest(300)\n";
     static const std::map<Diag, Case> rows{
         {Diag::impossible_shape, {"cylinder { from = (0, 1, 0), to = (0, 1, 0) }\n"}},
         {Diag::unusable_container,
@@ -44,7 +42,6 @@ const std::map<Diag, Case>& cases() {
         {Diag::unbounded_solid, {"union {\n  sphere { }\n  plane { }\n}\n"}},
         {Diag::empty_solid,
          {"intersection {\n  sphere { }\n  sphere { center = (5, 0, 0) }\n}\nsphere { }\n"}},
-        {Diag::deep_solid, {deep_solid}},
         {Diag::coincident_faces,
          {"difference {\n  box { min = (-1, 0, -1), max = (1, 1, 1) }\n"
           "  cylinder { from = (0, 0, 0), to = (0, 2, 0), radius = 0.3 }\n}\n"}},
