@@ -4,6 +4,7 @@
 #include "runtime/function.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace scc::compiler {
 
@@ -12,8 +13,13 @@ namespace {
 using ir::Op;
 using Wide = runtime::Interval<long double>;
 
-Range nearest(const Wide& bounds) {
-    return {static_cast<double>(bounds.min), static_cast<double>(bounds.max)};
+/// An end that is 0 but for the intervals' rounding is written as 0.
+double nearest(long double end, long double other) {
+    const long double rounding = 1e-17L * std::abs(other);
+    return std::isfinite(rounding) && std::abs(end) < rounding ? 0 : static_cast<double>(end);
+}
+Range nearest_range(const Wide& bounds) {
+    return {nearest(bounds.min, bounds.max), nearest(bounds.max, bounds.min)};
 }
 
 } // namespace
@@ -26,7 +32,7 @@ std::vector<Range> node_ranges(const ir::Function& function, const InputRanges& 
     const auto program = program_of<long double>(function);
     const Wide* bounds = run(program, point);
     std::vector<Range> ranges(function.nodes.size());
-    std::transform(bounds, bounds + ranges.size(), ranges.begin(), nearest);
+    std::transform(bounds, bounds + ranges.size(), ranges.begin(), nearest_range);
     return ranges;
 }
 

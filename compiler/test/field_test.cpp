@@ -33,7 +33,7 @@ TEST(Field, WithoutFiniteValuesIsAMistakeAtTheOperation) {
 TEST(Field, WithFiniteValuesInTheContainerAloneIsFine) {
     for (const char* field :
          {"1 / (p.x + 1.001)", "sqrt(p.x * p.x + p.y * p.y) - 0.5", "length(p) - 0.5", "sqrt(1.0001 - p.x)",
-          "1 / (p.x * p.x - 2 * p.x * p.y + p.y * p.y + 0.01)", "if (p.x > 0.1) 1 / p.x else 3",
+          "1 / (p.x * p.x - 2 * p.x * p.y + p.y * p.y + 0.5)", "if (p.x > 0.1) 1 / p.x else 3",
           "p.x ^ -2 + p.y", "noise(p * 3) - 0.5", "random(floor(p.x)) - 0.5", "7"}) {
         const bool divides = std::string(field) == "p.x ^ -2 + p.y";
         const test::Compiled c = surface(field, divides ? "sphere { center = (3, 0, 0) }" : "sphere { }");
