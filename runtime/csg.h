@@ -9,9 +9,10 @@
 
 /// Where rays meet solids that are made of others by union, intersection and difference.
 ///
-/// Along a ray every member is a stretch of t, so the ray is swept from one end of a stretch to the next, all
-/// lanes of a pack at once: at each of these events the members that begin or end there change between inside
-/// and outside, and where that changes the value of the tree, the ray meets the solid.
+/// Along a ray a convex member is a stretch of t, and others are several, which are searched for one end
+/// after the other. So the ray is swept from one end of a stretch to the next, all lanes of a pack at once:
+/// at each of these events the members that begin or end there change between inside and outside, and where
+/// that changes the value of the tree, the ray meets the solid.
 ///
 /// Events of members whose surfaces are no farther apart than their error bounds are one event, so that faces
 /// in one plane leave no film of single pixels between them: a difference of solids with a face in common has
@@ -24,11 +25,12 @@ namespace detail {
 template <class L>
 struct CsgLeaf {
     PrimitiveRef member;
-    MaskOf<L> inside;  ///< at the place that the sweep has come to
-    MaskOf<L> changed; ///< by the last event
-    L next;            ///< t of the next change, or infinity
-    L exit;            ///< t at the end of the stretch
-    L event;           ///< t of the last change
+    MaskOf<L> inside;            ///< at the place that the sweep has come to
+    MaskOf<L> changed;           ///< by the last event
+    L next;                      ///< t of the next change, or infinity
+    L exit;                      ///< of a convex one: t at the end of the stretch
+    L event;                     ///< t of the last change
+    IndexOf<L> part, event_part; ///< of others: the surface's at `next` and at `event`
 };
 
 /// Of the tree of those members, operands before operators.
@@ -134,22 +136,44 @@ private:
     }
 
     bool gather_leaf(const PrimitiveRef& ref) {
-        Stretch<L> stretch{L(0), L(0)};
-        visit_member(scene_, ref, [&](const auto& member) {
-            stretch = member.primitive.shape.stretch(to_object(member.primitive, ray_));
-        });
-        const Mask met =
-            (stretch.near <= stretch.far) & (stretch.near <= ray_.t_max) & (stretch.far >= ray_.t_min);
-        if (none(met)) {
+        const L inf = infinity<L>();
+        Leaf leaf{ref, Mask(false), Mask(false), inf, inf, inf, {}, {}};
+        visit_member(scene_, ref, [&](const auto& member) { start(leaf, member.primitive); });
+        if (none(leaf.inside | (leaf.next <= ray_.t_max))) {
             return false;
         }
-        const L inf = infinity<L>();
-        const Mask begun = stretch.near <= ray_.t_min, ended = stretch.far <= ray_.t_min;
-        const L ahead = choose(begun, choose(ended, inf, stretch.far), stretch.near);
-        workspace_.leaves.push_back(
-            {ref, Mask(met & begun & !ended), Mask(false), choose(met, ahead, inf), stretch.far, inf});
+        workspace_.leaves.push_back(leaf);
         workspace_.steps.push_back({CsgOp::member, 0});
         return true;
+    }
+
+    template <class Primitive>
+    void start(Leaf& leaf, const Primitive& primitive) const {
+        if constexpr (is_convex<decltype(primitive.shape)>) {
+            const L inf = infinity<L>();
+            const Stretch<L> stretch = primitive.shape.stretch(to_object(primitive, ray_));
+            const Mask met =
+                (stretch.near <= stretch.far) & (stretch.near <= ray_.t_max) & (stretch.far >= ray_.t_min);
+            const Mask begun = stretch.near <= ray_.t_min, ended = stretch.far <= ray_.t_min;
+            leaf.inside = met & begun & !ended;
+            leaf.next = choose(met, choose(begun, choose(ended, inf, stretch.far), stretch.near), inf);
+            leaf.exit = stretch.far;
+        } else {
+            cross(leaf, primitive, ray_.t_min, is_active(ray_));
+        }
+    }
+
+    /// The next change of a member that is not convex, from t on: beyond the ray's range too, since what a
+    /// ray will leave it is in.
+    template <class Primitive>
+    void cross(Leaf& leaf, const Primitive& primitive, const L& t, const Mask& among) const {
+        Ray<L> ray = to_object(primitive, ray_);
+        ray.t_min = t;
+        ray.t_max = choose(among, infinity<L>(), -infinity<L>());
+        const Crossing<L> next = cross_implicit(primitive.shape, ray, field_of(scene_, primitive.shape));
+        leaf.inside = Mask((among & next.outwards) | ((!among) & leaf.inside));
+        leaf.next = choose(among, next.hit.t, leaf.next);
+        leaf.part = choose(among, next.hit.part, leaf.part);
     }
 
     /// The tree's value where `value(leaf)` is the leaves'.
@@ -189,7 +213,7 @@ private:
         Surface<L> surface;
         const Vec3<L> magnitude = absolute(ray_.org) + absolute(t) * absolute(ray_.dir);
         visit_member(scene_, leaf.member, [&](const auto& member) {
-            const ShapeHit<L> hit = hit_at(member.primitive, t, needed);
+            const ShapeHit<L> hit = hit_at(member.primitive, t, leaf.part, needed);
             Vec3<L> object_point;
             surface = surface_of(scene_, member.primitive, ray_, hit, needed, object_point);
             surface.error = surface.error + rounding_of(member.primitive, magnitude);
@@ -208,14 +232,18 @@ private:
         return (transform_magnitude(primitive.world_from_object, in_object) + magnitude) *
                (8 * roundoff<L>());
     }
-    /// The hit that a member's own test finds at the end of a stretch.
+    /// The hit at the end of a stretch; a convex member's own test finds the part.
     template <class Primitive>
-    ShapeHit<L> hit_at(const Primitive& primitive, const L& t, const Mask& needed) const {
-        Ray<L> ray = to_object(primitive, ray_);
-        ray.t_min = t;
-        ray.t_max = choose(needed, t, -infinity<L>());
-        const ShapeHit<L> found = primitive.shape.intersect(ray);
-        return {t, found.part};
+    ShapeHit<L> hit_at(const Primitive& primitive, const L& t, [[maybe_unused]] const IndexOf<L>& part,
+                       [[maybe_unused]] const Mask& needed) const {
+        if constexpr (is_convex<decltype(primitive.shape)>) {
+            Ray<L> ray = to_object(primitive, ray_);
+            ray.t_min = t;
+            ray.t_max = choose(needed, t, -infinity<L>());
+            return {t, primitive.shape.intersect(ray).part};
+        } else {
+            return {t, part};
+        }
     }
 
     /// Lanes of a leaf whose next change is at a surface within its own bound, and `error`, of the place `t`.
@@ -264,11 +292,25 @@ private:
         }
     }
 
-    static void change(Leaf& leaf) {
-        const Mask leaves_it = leaf.changed & leaf.inside;
+    void change(Leaf& leaf) const {
         leaf.event = choose(leaf.changed, leaf.next, leaf.event);
-        leaf.next = choose(leaf.changed, choose(leaves_it, infinity<L>(), leaf.exit), leaf.next);
-        leaf.inside = differ<L>(leaf.inside, leaf.changed);
+        leaf.event_part = choose(leaf.changed, leaf.part, leaf.event_part);
+        if (any(leaf.changed)) {
+            visit_member(scene_, leaf.member, [&](const auto& member) { pass(leaf, member.primitive); });
+        }
+    }
+    template <class Primitive>
+    void pass(Leaf& leaf, const Primitive& primitive) const {
+        if constexpr (is_convex<decltype(primitive.shape)>) {
+            const Mask leaves_it = leaf.changed & leaf.inside;
+            leaf.next = choose(leaf.changed, choose(leaves_it, infinity<L>(), leaf.exit), leaf.next);
+            leaf.inside = differ<L>(leaf.inside, leaf.changed);
+        } else {
+            // Behind the event by more than rounding, so that the sweep gets on.
+            const L away = largest_component(absolute(ray_.org)) / largest_component(absolute(ray_.dir));
+            const L behind = leaf.event + 8 * roundoff<L>() * (away + absolute(leaf.event));
+            cross(leaf, primitive, behind, leaf.changed);
+        }
     }
 
     /// Of several leaves that change together, the first in source order counts that alone would have done
@@ -310,7 +352,7 @@ private:
         if constexpr (!AnyHit) {
             using Index = IndexOf<L>;
             visit_member(scene_, leaf.member, [&](const auto& member) {
-                const ShapeHit<L> found = hit_at(member.primitive, leaf.event, here);
+                const ShapeHit<L> found = hit_at(member.primitive, leaf.event, leaf.event_part, here);
                 hit.shape.part = choose(here, found.part, hit.shape.part);
                 hit.id = choose(here, Index(member.primitive.tag.id), hit.id);
             });

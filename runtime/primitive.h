@@ -20,11 +20,18 @@ template <class Shape>
 inline constexpr bool is_bounded = is_mesh<Shape> || is_csg<Shape> || requires(const Shape& s) {
     s.bounds();
 };
-/// Whether it can be a member of solids made of others.
 template <class Shape>
-inline constexpr bool is_solid = requires(const Shape& s, const Ray<double>& ray) {
+inline constexpr bool is_implicit = requires(const Shape& s) {
+    s.field;
+};
+/// Whether a ray is in it for one stretch at most.
+template <class Shape>
+inline constexpr bool is_convex = requires(const Shape& s, const Ray<double>& ray) {
     s.stretch(ray);
 };
+/// Whether it can be a member of solids made of others.
+template <class Shape>
+inline constexpr bool is_solid = is_convex<Shape> || is_implicit<Shape>;
 
 /// f.operator()<kind>() for each kind that the scene's solids can have members of, until it returns true;
 /// whether it did.
@@ -118,11 +125,6 @@ constexpr Surface<L> transform_surface(const Affine<R>& world_from_object, const
             normalize(transform_normal(object_from_world, object.normal)),
             normalize(transform_normal(object_from_world, object.shading_normal))};
 }
-
-template <class Shape>
-inline constexpr bool is_implicit = requires(const Shape& s) {
-    s.field;
-};
 
 /// An implicit surface's field, over whatever numbers.
 template <class S, class Shape>

@@ -75,7 +75,9 @@ constexpr bool uses_mesh_among(std::integer_sequence<std::uint32_t, kind...>) {
 }
 template <class S, std::uint32_t... kind>
 constexpr bool uses_implicit_among(std::integer_sequence<std::uint32_t, kind...>) {
-    return ((uses_kind(S::traits, kind) && is_implicit<ShapeOfKind<typename S::Real, kind>>) || ...);
+    return (((uses_kind(S::traits, kind) || uses_member_kind(S::traits, kind)) &&
+             is_implicit<ShapeOfKind<typename S::Real, kind>>) ||
+            ...);
 }
 template <class S>
 inline constexpr bool

@@ -305,9 +305,11 @@ void Emitter<R>::primitives() {
 template <class R>
 std::vector<bool> Emitter<R>::are_fields() const {
     std::vector<bool> result(scene_.functions.size());
-    for (const ir::Object& object : scene_.objects) {
-        if (const auto* implicit = std::get_if<runtime::Implicit<double>>(&object.shape)) {
-            result[static_cast<std::size_t>(implicit->field)] = true;
+    for (const auto* objects : {&scene_.objects, &scene_.members}) {
+        for (const ir::Object& object : *objects) {
+            if (const auto* implicit = std::get_if<runtime::Implicit<double>>(&object.shape)) {
+                result[static_cast<std::size_t>(implicit->field)] = true;
+            }
         }
     }
     return result;

@@ -151,6 +151,9 @@ private:
 
     void emit_object(const ir::Object& object) {
         if (const auto* solid = std::get_if<runtime::Csg<double>>(&object.shape)) {
+            if (!describe_fields(object, *solid)) {
+                return;
+            }
             objects_.line("// {}", comment_text(object.path + line_of(object.span)));
             emit_solid(solid->root, true);
             note(Fidelity::exact, std::string(ir::csg_word(scene_.csg_nodes[solid->root].op)), object.path,
@@ -252,6 +255,25 @@ private:
             add("interior_texture", shape.reversed ? front : back);
         }
         return lines;
+    }
+
+    /// Those of a solid's members. False: it is dropped, since one of them would be missing.
+    bool describe_fields(const ir::Object& object, const runtime::Csg<double>& solid) {
+        bool has_all = true;
+        ir::for_each_csg_node(scene_, solid, [&](const ir::CsgNode& node) {
+            if (node.op != runtime::CsgOp::member) {
+                return;
+            }
+            const ir::Object& member = scene_.members[node.member];
+            const auto* implicit = std::get_if<runtime::Implicit<double>>(&member.shape);
+            PovField ignored;
+            has_all &= implicit == nullptr || describe_field(member, *implicit, ignored);
+        });
+        if (!has_all) {
+            note(Fidelity::dropped, std::string(ir::csg_word(scene_.csg_nodes[solid.root].op)), object.path,
+                 object.span, "a member of it is dropped");
+        }
+        return has_all;
     }
 
     /// False: it is dropped.

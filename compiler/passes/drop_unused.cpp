@@ -79,9 +79,11 @@ void drop_materials(ir::Scene& scene) {
 /// No array holds implicit surfaces.
 template <class Visit>
 void for_each_field(ir::Scene& scene, Visit visit) {
-    for (ir::Object& object : scene.objects) {
-        if (auto* implicit = std::get_if<runtime::Implicit<double>>(&object.shape)) {
-            visit(implicit->field);
+    for (auto* objects : {&scene.objects, &scene.members}) {
+        for (ir::Object& object : *objects) {
+            if (auto* implicit = std::get_if<runtime::Implicit<double>>(&object.shape)) {
+                visit(implicit->field);
+            }
         }
     }
 }

@@ -188,11 +188,18 @@ L finest_step(const Ray<L>& ray, const L& from, const L& to) {
 
 } // namespace detail
 
+/// Where a ray passes through a solid's surface.
+template <class L>
+struct Crossing {
+    ShapeHit<L> hit;
+    MaskOf<L> outwards; ///< where there is a hit: the ray leaves the solid
+};
+
 /// The first point of the solid's surface in each ray's range. Which one it is does not depend on t_max;
 /// called again with t_min behind a hit it gives the next. What the ray's start lies on, within rounding, is
 /// no hit.
 template <class L, class R, class Field>
-ShapeHit<L> intersect_implicit(const Implicit<R>& shape, const Ray<L>& ray, const Field& field) {
+Crossing<L> cross_implicit(const Implicit<R>& shape, const Ray<L>& ray, const Field& field) {
     constexpr int most_steps = 5000;
     using Index = IndexOf<L>;
     const Passage<L> inside = passage(shape.within, ray);
@@ -201,7 +208,7 @@ ShapeHit<L> intersect_implicit(const Implicit<R>& shape, const Ray<L>& ray, cons
     detail::FieldSearch<L> s;
     s.searching = (inside.near.t < infinity<L>()) & (inside.far.t > start) & (start <= ray.t_max);
     if (none(s.searching)) {
-        return {};
+        return {{}, MaskOf<L>(false)};
     }
     const L end = choose(s.searching, inside.far.t, L(1)), begin = choose(s.searching, start, L(0));
     const detail::FieldAlongRay<L, Field> along(field, ray);
@@ -234,7 +241,12 @@ ShapeHit<L> intersect_implicit(const Implicit<R>& shape, const Ray<L>& ray, cons
     field_counts.undecided +=
         count_lanes(MaskOf<L>(s.undecided & !settled & (inside.near.t < infinity<L>())));
     hit.t = choose(hit.t <= ray.t_max, hit.t, infinity<L>());
-    return hit;
+    return {hit, MaskOf<L>((leaving | (s.found & (s.sign < 0))) & (hit.t < infinity<L>()))};
+}
+
+template <class L, class R, class Field>
+ShapeHit<L> intersect_implicit(const Implicit<R>& shape, const Ray<L>& ray, const Field& field) {
+    return cross_implicit(shape, ray, field).hit;
 }
 
 /// The bound of the error is how far the field can be from 0 around the point, divided by its gradient: a ray

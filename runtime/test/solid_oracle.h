@@ -44,11 +44,41 @@ bool contains(const Cone<R>& c, const Wide& p) {
     return is_in_cone(c.from, c.to, c.radius_from, c.radius_to, p);
 }
 
+/// The one field of the scenes here: a ball with dents.
+template <class R>
+FunctionProgram<R> dented_ball() {
+    using O = Opcode;
+    return {{{O::p_x, {}, 0},
+             {O::p_y, {}, 0},
+             {O::p_z, {}, 0},
+             {O::square, {0}, 0},
+             {O::square, {1}, 0},
+             {O::square, {2}, 0},
+             {O::add, {3, 4}, 0},
+             {O::add, {6, 5}, 0},
+             {O::constant, {}, 5},
+             {O::mul, {0, 8}, 0},
+             {O::sin, {9}, 0},
+             {O::mul, {1, 8}, 0},
+             {O::sin, {11}, 0},
+             {O::mul, {10, 12}, 0},
+             {O::constant, {}, R(0.5)},
+             {O::mul, {13, 14}, 0},
+             {O::add, {7, 15}, 0},
+             {O::sub, {16, 14}, 0}},
+            {17}};
+}
+template <class R>
+bool contains(const Implicit<R>& s, const Wide& p) {
+    const bool in_container = s.within.visit([&](const auto& shape) { return contains(shape, p); });
+    return in_container && dot(p, p) + std::sin(5 * p.x) * std::sin(5 * p.y) / 2 - 0.5L <= 0;
+}
+
 template <class R>
 struct Node {
     CsgOp op = CsgOp::member;
     std::vector<Node> operands{};
-    std::variant<Sphere<R>, Box<R>, Plane<R>, Cylinder<R>, Cone<R>> shape{};
+    std::variant<Sphere<R>, Box<R>, Plane<R>, Cylinder<R>, Cone<R>, Implicit<R>> shape{};
     std::optional<Affine<double>> place{};
     Affine<long double> object_from_world{}; ///< of the rounded place
 };
@@ -71,7 +101,7 @@ Node<R> random_node(Random<R>& random, int depth) {
         }
         node.shape = shape;
     };
-    switch (static_cast<int>(random.number(0, 4.999))) {
+    switch (static_cast<int>(random.number(0, 5.999))) {
     case 0:
         make(Sphere<R>{});
         break;
@@ -84,6 +114,12 @@ Node<R> random_node(Random<R>& random, int depth) {
     case 3:
         make(Cylinder<R>{});
         break;
+    case 4: {
+        Sphere<R> container;
+        randomize(container, random, 0.8);
+        node.shape = Implicit<R>{0, Container<R>::of(container)};
+        break;
+    }
     default:
         make(Cone<R>{});
         break;
@@ -105,6 +141,7 @@ struct Solid {
     Solid(Random<R>& random, int depth) : Solid(random_node(random, depth)) {}
 
     void add(Node<R> tree) {
+        scene.functions.resize(1, dented_ball<R>());
         const auto root = static_cast<std::uint32_t>(scene.csg_nodes.size());
         scene.add(Bare<Csg<R>>{{root}, {next_id++, {}}});
         add_node(tree, false);
