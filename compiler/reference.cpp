@@ -227,6 +227,11 @@ const std::map<std::string_view, std::string_view>& examples() {
         {"triangle", "triangle { points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)] }"},
         {"mesh", "fn model(file: string) -> shape = mesh { file = file, normals = \"smooth\" }"},
         {"group", "group {\n  transform = rotate_y(30deg)\n  sphere { }\n  sphere { center = (2, 0, 0) }\n}"},
+        {"implicit", "implicit {\n  field = fn(p: vec3) = p.x ^ 4 + p.y ^ 4 + p.z ^ 4 - 1\n  within = sphere "
+                     "{ radius = 1.5 }\n}"},
+        {"union", "union {\n  sphere { }\n  cylinder { radius = 0.5, to = (0, 2, 0) }\n}"},
+        {"intersection", "intersection {\n  sphere { radius = 1.3 }\n  box { }\n}"},
+        {"difference", "difference {\n  box { }\n  sphere { radius = 1.3 }\n}"},
         {"phong",
          "sphere { material = phong { diffuse = rgb(0.2, 0.4, 0.8), specular = rgb(0.5, 0.5, 0.5), "
          "shininess = 60 } }\n"
