@@ -15,7 +15,7 @@ struct LowerOptions {
     std::string name; ///< of the scene: the file's, without folder and extension
     AssetPolicy assets;
     /// Of imported files, whose assets lie beside them.
-    std::map<lang::FileId, std::filesystem::path> import_folders;
+    std::map<lang::FileId, std::filesystem::path> import_folders{};
     std::string camera;       ///< --camera; empty: the scene's choice
     bool keep_meshes = false; ///< take them from the user's cache and leave them there
 };

@@ -78,5 +78,5 @@ RenderResult draw(const RenderRequest& request, Image& image) {
 
 int main(int argc, char** argv) {
     static constexpr const char* features[] = {"plane", "cylinder", "sphere (transformed)", "point_lights", "directional_lights", "attenuation", "specular", "reflection", "two_sided", "functions", "shadows", "perspective", nullptr};
-    return scc::host::run_program({"double", scc::host::compiled_isa, features, load, draw, "lecture", {640, 480, 4, 4, true}}, argc, argv);
+    return scc::host::run_program({.precision = "double", .isa = scc::host::compiled_isa, .features = features, .load = load, .draw = draw, .scene = "lecture", .settings = {640, 480, 4, 4, true}}, argc, argv);
 }

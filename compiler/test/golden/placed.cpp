@@ -95,5 +95,5 @@ RenderResult draw(const RenderRequest& request, Image& image) {
 
 int main(int argc, char** argv) {
     static constexpr const char* features[] = {"disc", "triangle", "sphere (transformed)", "point_lights", "attenuation", "separate_specular", "specular", "functions", "smooth_normals", "orthographic", nullptr};
-    return scc::host::run_program({"double", scc::host::compiled_isa, features, load, draw, "placed", {320, 240, 1, 0, false}}, argc, argv);
+    return scc::host::run_program({.precision = "double", .isa = scc::host::compiled_isa, .features = features, .load = load, .draw = draw, .scene = "placed", .settings = {320, 240, 1, 0, false}}, argc, argv);
 }
