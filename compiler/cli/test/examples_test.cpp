@@ -9,6 +9,8 @@ namespace {
 struct Example {
     const char* name;
     const char* against; ///< the renderers that get all of it
+
+    friend void PrintTo(const Example& example, std::ostream* out) { *out << example.name; }
 };
 
 class Examples : public CommandLine, public testing::WithParamInterface<Example> {
