@@ -33,12 +33,12 @@ inline constexpr bool is_convex = requires(const Shape& s, const Ray<double>& ra
 template <class Shape>
 inline constexpr bool is_solid = is_convex<Shape> || is_implicit<Shape>;
 
-/// f.operator()<kind>() for each kind that the scene's solids can have members of, until it returns true;
-/// whether it did.
-template <class S, class F>
-bool any_of_member_kinds(F&& f) {
+/// f.operator()<kind>() for each kind of primitives that `admits` names, a function of nothing but the kind,
+/// until it returns true; whether it did. For the others f is not compiled.
+template <class Admits, class F>
+bool any_of_kinds_where([[maybe_unused]] Admits admits, F&& f) {
     const auto one = [&]<std::uint32_t kind>(std::integral_constant<std::uint32_t, kind>) {
-        if constexpr (uses_member_kind(S::traits, kind) && is_solid<ShapeOfKind<typename S::Real, kind>>) {
+        if constexpr (Admits{}.template operator()<kind>()) {
             return f.template operator()<kind>();
         } else {
             return false;
@@ -50,16 +50,22 @@ bool any_of_member_kinds(F&& f) {
     (std::make_integer_sequence<std::uint32_t, primitive_kinds>{});
 }
 
+/// Whether the scene's solids can have members of a kind.
+template <class S, std::uint32_t kind>
+inline constexpr bool
+    has_members = uses_member_kind(S::traits, kind) && is_solid<ShapeOfKind<typename S::Real, kind>>;
+
 /// f(member) with the one that the reference names.
 template <class S, class F>
 void visit_member(const S& scene, const PrimitiveRef& ref, F&& f) {
-    any_of_member_kinds<S>([&]<std::uint32_t kind>() {
-        if (kind != ref.kind) {
-            return false;
-        }
-        f(scene.members(Of<PrimitiveOfKind<typename S::Real, kind>>{})[ref.index]);
-        return true;
-    });
+    any_of_kinds_where([]<std::uint32_t kind>() { return has_members<S, kind>; },
+                       [&]<std::uint32_t kind>() {
+                           if (kind != ref.kind) {
+                               return false;
+                           }
+                           f(scene.members(Of<PrimitiveOfKind<typename S::Real, kind>>{})[ref.index]);
+                           return true;
+                       });
 }
 
 /// A box around a solid from its members' boxes; box_of(node) gives one's. Not finite where the members do
@@ -88,19 +94,16 @@ Bounds<R> csg_bounds(const Nodes& nodes, std::size_t at, const BoxOf& box_of) {
 /// f.operator()<kind>(primitive, its index in the table of its kind) for the bounded ones, kind by kind.
 template <class S, class F>
 void for_each_bounded(const S& scene, F&& f) {
-    const auto one = [&]<std::uint32_t kind>(std::integral_constant<std::uint32_t, kind>) {
-        using R = typename S::Real;
-        if constexpr (uses_kind(S::traits, kind) && is_bounded<ShapeOfKind<R, kind>>) {
+    using R = typename S::Real;
+    any_of_kinds_where(
+        []<std::uint32_t kind>() { return uses_kind(S::traits, kind) && is_bounded<ShapeOfKind<R, kind>>; },
+        [&]<std::uint32_t kind>() {
             std::uint32_t index = 0;
             for (const auto& primitive : scene.primitives(Of<PrimitiveOfKind<R, kind>>{})) {
                 f.template operator()<kind>(primitive, index++);
             }
-        }
-    };
-    [&]<std::uint32_t... kind>(std::integer_sequence<std::uint32_t, kind...>) {
-        (one(std::integral_constant<std::uint32_t, kind>{}), ...);
-    }
-    (std::make_integer_sequence<std::uint32_t, primitive_kinds>{});
+            return false;
+        });
 }
 
 template <class R, class L>

@@ -89,35 +89,18 @@ inline constexpr bool
 /// f.operator()<kind>() for each kind that the scene can contain, until it returns true; whether it did.
 template <class S, class F>
 bool any_of_kinds(F&& f) {
-    const auto one = [&]<std::uint32_t kind>(std::integral_constant<std::uint32_t, kind>) {
-        if constexpr (uses_kind(S::traits, kind)) {
-            return f.template operator()<kind>();
-        } else {
-            return false;
-        }
-    };
-    return [&]<std::uint32_t... kind>(std::integer_sequence<std::uint32_t, kind...>) {
-        return (one(std::integral_constant<std::uint32_t, kind>{}) || ...);
-    }
-    (std::make_integer_sequence<std::uint32_t, primitive_kinds>{});
+    return any_of_kinds_where([]<std::uint32_t kind>() { return uses_kind(S::traits, kind); }, f);
 }
 
 /// The same for the kinds whose surfaces a ray can meet: members of solids are met instead of the solids.
 template <class S, class F>
-void any_of_surface_kinds(F&& f) {
-    const auto one = [&]<std::uint32_t kind>(std::integral_constant<std::uint32_t, kind>) {
-        using Shape = ShapeOfKind<typename S::Real, kind>;
-        if constexpr (!is_csg<Shape> && (uses_kind(S::traits, kind) ||
-                                         (uses_member_kind(S::traits, kind) && is_solid<Shape>))) {
-            return f.template operator()<kind>();
-        } else {
-            return false;
-        }
-    };
-    [&]<std::uint32_t... kind>(std::integer_sequence<std::uint32_t, kind...>) {
-        (one(std::integral_constant<std::uint32_t, kind>{}) || ...);
-    }
-    (std::make_integer_sequence<std::uint32_t, primitive_kinds>{});
+bool any_of_surface_kinds(F&& f) {
+    return any_of_kinds_where(
+        []<std::uint32_t kind>() {
+            return !is_csg<ShapeOfKind<typename S::Real, kind>> &&
+                   (uses_kind(S::traits, kind) || has_members<S, kind>);
+        },
+        f);
 }
 
 /// Keeps a found hit if it is the nearest so far; whether it was in any lane.

@@ -14,18 +14,6 @@ using namespace scc::runtime::test;
 
 namespace {
 
-template <class L>
-void put_ray(Ray<L>& rays, int i, const Ray<RealOf<L>>& ray) {
-    const auto put = [&](Vec3<L>& to, const Vec3<RealOf<L>>& from) {
-        set_lane(to.x, i, from.x);
-        set_lane(to.y, i, from.y);
-        set_lane(to.z, i, from.z);
-    };
-    put(rays.org, ray.org);
-    put(rays.dir, ray.dir);
-    set_lane(rays.t_max, i, ray.t_max);
-}
-
 bool is_used(const BvhNode& node, int slot) {
     return node.min[0][slot] <= node.max[0][slot];
 }
@@ -448,7 +436,7 @@ TYPED_TEST(Hierarchy, PacksThatAreTracedTogetherFindWhatSingleRaysFind) {
                     if (p % 5 == 4 || i % 3 == 2) {
                         ray.t_max = -1; // takes no part
                     }
-                    put_ray(rays[p], i, ray);
+                    set_ray(rays[p], i, ray);
                 }
             }
             const Apex apex = kind == 0 ? Apex::origin : kind == 1 ? Apex::end : Apex::none;
@@ -514,7 +502,7 @@ TYPED_TEST(Hierarchy, RaysThatTakeTurnsFindWhatEachFindsAlone) {
                     } else if (i % 7 == 3) {
                         ray.t_max = -1; // takes no part
                     }
-                    put_ray(rays[p], i, ray);
+                    set_ray(rays[p], i, ray);
                 }
             }
             std::array<Ray<L>, most_packs> closest = rays, feelers = rays;

@@ -224,4 +224,17 @@ bool is_hit(const Hit<R>& hit) {
     return hit.kind != no_kind;
 }
 
+template <class L>
+void set_ray(Ray<L>& rays, int i, const Ray<RealOf<L>>& ray) {
+    const auto put = [&](Vec3<L>& to, const Vec3<RealOf<L>>& from) {
+        set_lane(to.x, i, from.x);
+        set_lane(to.y, i, from.y);
+        set_lane(to.z, i, from.z);
+    };
+    put(rays.org, ray.org);
+    put(rays.dir, ray.dir);
+    set_lane(rays.t_min, i, ray.t_min);
+    set_lane(rays.t_max, i, ray.t_max);
+}
+
 } // namespace scc::runtime::test
