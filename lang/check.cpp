@@ -90,8 +90,8 @@ std::optional<std::string> evaluate_name(std::shared_ptr<const ast::File> file, 
 
 namespace {
 
-std::vector<Scalar> trace_with(const Value& argument, const ClosurePtr& function, SymbolBuilder& builder,
-                               Diagnostics& diagnostics) {
+Components trace_with(const Value& argument, const ClosurePtr& function, SymbolBuilder& builder,
+                      Diagnostics& diagnostics) {
     RunReport report;
     Evaluator evaluator({}, report, &builder);
     const Span span = span_of(*function);
@@ -104,12 +104,12 @@ std::vector<Scalar> trace_with(const Value& argument, const ClosurePtr& function
         }
     }
     report.flush(diagnostics);
-    return {parts.v.begin(), parts.v.begin() + parts.count};
+    return parts;
 }
 
 } // namespace
 
-std::vector<Scalar> trace(const ClosurePtr& function, SymbolBuilder& builder, Diagnostics& diagnostics) {
+Components trace(const ClosurePtr& function, SymbolBuilder& builder, Diagnostics& diagnostics) {
     return trace_with({SurfaceValue{}}, function, builder, diagnostics);
 }
 
@@ -120,7 +120,8 @@ std::vector<Scalar> trace_at_point(const ClosurePtr& function, SymbolBuilder& bu
     for (std::size_t i = 0; i < names.size(); ++i) {
         point.v[i] = {0, builder.input(names[i])};
     }
-    return trace_with({point}, function, builder, diagnostics);
+    const Components parts = trace_with({point}, function, builder, diagnostics);
+    return {parts.v.begin(), parts.v.begin() + parts.count};
 }
 
 std::string_view name_of(const Closure& function) {
