@@ -48,4 +48,27 @@ constexpr Vec3<L> reflect(const Vec3<L>& dir, const Vec3<L>& normal) {
     return dir - normal * (2 * dot(dir, normal));
 }
 
+/// How light goes on where the index of refraction changes from `from` to `to`.
+template <class L>
+struct Refraction {
+    Vec3<L> dir;        ///< unit
+    L reflectance;      ///< F: the part of unpolarised light that is mirrored
+    MaskOf<L> is_total; ///< all of it is mirrored
+};
+
+/// Snell's law in the form of Heckbert and Hanrahan, and Fresnel's equations; `normal` is a unit vector that
+/// faces where the ray comes from. F is no number where nothing changes and the ray grazes the surface.
+template <class L>
+Refraction<L> refract(const Vec3<L>& dir, const Vec3<L>& normal, const L& from, const L& to) {
+    const Vec3<L> unit = normalize(dir);
+    const L ratio = from / to;
+    const L cosine = -dot(unit, normal);
+    const L square = 1 - ratio * ratio * (1 - cosine * cosine); // of the refracted ray's cosine
+    const L refracted = square_root(maximum(square, L(0)));
+    const L across = (from * cosine - to * refracted) / (from * cosine + to * refracted);
+    const L along = (from * refracted - to * cosine) / (from * refracted + to * cosine);
+    return {unit * ratio + normal * (ratio * cosine - refracted), (across * across + along * along) / 2,
+            square < 0};
+}
+
 } // namespace scc::runtime

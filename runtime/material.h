@@ -17,7 +17,9 @@ struct Varying {
     friend constexpr bool operator==(const Varying&, const Varying&) = default;
 };
 
-/// L7, L9, L15. Colours are reflectances per channel.
+/// L7, L9, L15, and what is seen through the surface. Colours are parts per channel. The light that leaves is
+///     ambient + diffuse + specular + emission + reflect * mirrored + transmit * behind;
+/// an opacity is worked into these parts already.
 template <class R>
 struct Phong {
     Varying<Rgb<R>> ambient{};
@@ -25,7 +27,10 @@ struct Phong {
     Varying<Rgb<R>> specular{};
     Varying<Rgb<R>> emission{};
     Varying<Rgb<R>> reflect{};
+    Varying<Rgb<R>> transmit{};
     Varying<R> shininess{32};
+    R ior = 1;            ///< index of refraction of what the surface encloses
+    bool fresnel = false; ///< by the dielectric's reflectance F: reflect counts F times, transmit 1 - F times
 
     friend constexpr bool operator==(const Phong&, const Phong&) = default;
 };

@@ -501,8 +501,9 @@ MaskOf<L> any_hit(const S& scene, Ray<L> ray) {
     return blocked;
 }
 
-/// f(primitive, lanes, inverted) for each primitive that one of the lanes in `among` has hit, with those
-/// lanes. `inverted`: the primitive's outside is the inside of the solid that it is a member of.
+/// f(primitive, lanes, inverted, body) for each primitive that one of the lanes in `among` has hit, with
+/// those lanes. `inverted`: the primitive's outside is the inside of the solid that it is a member of.
+/// `body`: Tag::id of that solid, else the primitive's own.
 template <SceneModel S, class L, class F>
 void for_each_primitive(const S& scene, const Hit<L>& hit, MaskOf<L> among, F&& f) {
     using Index = IndexOf<L>;
@@ -521,11 +522,13 @@ void for_each_primitive(const S& scene, const Hit<L>& hit, MaskOf<L> among, F&& 
                         is_member ? &scene.members(Of<Primitive>{})[index] : nullptr;
                     const Primitive& primitive =
                         is_member ? member->primitive : scene.primitives(Of<Primitive>{})[index];
-                    f(primitive, same, is_member && member->inverted);
+                    f(primitive, same, is_member && member->inverted,
+                      is_member ? member->solid : primitive.tag.id);
                     return true;
                 }
             } else if (kind == hit_kind) {
-                f(scene.primitives(Of<Primitive>{})[index], same, std::false_type{});
+                const Primitive& primitive = scene.primitives(Of<Primitive>{})[index];
+                f(primitive, same, std::false_type{}, primitive.tag.id);
                 return true;
             }
             return false;

@@ -238,7 +238,7 @@ private:
         }
 
         const Renderer& renderer_;
-        const Shader<S, L> shader_;
+        Shader<S, L> shader_;
         RayCounts& rays_;
         int n_;
         std::size_t samples_across_;            ///< the tile

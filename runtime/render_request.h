@@ -25,6 +25,7 @@ struct RayCounts {
     std::uint64_t primary = 0;
     std::uint64_t shadow = 0;
     std::uint64_t reflected = 0;
+    std::uint64_t refracted = 0;
     /// Searches for an implicit surface that remained open somewhere (see FieldCounts), and that ended at a
     /// jump.
     std::uint64_t undecided = 0;
@@ -34,6 +35,7 @@ struct RayCounts {
         primary += more.primary;
         shadow += more.shadow;
         reflected += more.reflected;
+        refracted += more.refracted;
         undecided += more.undecided;
         at_jumps += more.at_jumps;
         return *this;

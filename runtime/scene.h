@@ -35,6 +35,8 @@ struct SceneTraits {
     bool specular = false;          ///< some material has a highlight
     bool emission = false;
     bool reflection = false;
+    bool transmission = false;   ///< some material lets light through
+    bool refraction = false;     ///< some such material has an index of refraction other than 1
     bool two_sided = false;      ///< some shape has a back material of its own
     bool functions = false;      ///< some material field is a per-point function
     bool smooth_normals = false; ///< some triangle or mesh has vertex normals
@@ -46,8 +48,8 @@ struct SceneTraits {
     friend constexpr bool operator==(const SceneTraits&, const SceneTraits&) = default;
 };
 
-inline constexpr SceneTraits everything{~0U,  ~0U,  ~0U,  ~0U,  true, true, true, true, true,
-                                        true, true, true, true, true, true, true, true, true};
+inline constexpr SceneTraits everything{~0U,  ~0U,  ~0U,  ~0U,  true, true, true, true, true, true,
+                                        true, true, true, true, true, true, true, true, true, true};
 
 /// What every shape in a scene carries.
 struct Tag {
@@ -76,6 +78,7 @@ template <class Primitive>
 struct Member {
     Primitive primitive{};
     bool inverted = false; ///< an odd number of subtractions takes it away: its outside is the solid's inside
+    std::uint32_t solid = 0; ///< Tag::id of the whole
 };
 
 /// The picture's settings that a scene states and a command line may override.
@@ -83,7 +86,7 @@ struct RenderSettings {
     int width = 800;
     int height = 600;
     int samples_per_axis = 1; ///< n of n x n sub-pixel centres
-    int depth = 5;            ///< mirror bounces
+    int depth = 5;            ///< mirrors and refractions one after the other
     bool shadows = true;
 };
 

@@ -2,14 +2,17 @@
 
 #include "runtime/accel/occluders.h"
 #include "runtime/illumination.h"
+#include "runtime/media.h"
 #include "runtime/raycast.h"
 #include "runtime/render_request.h"
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <span>
 #include <vector>
 
-/// The colour that a ray sees: L7 to L9, L14, L15.
+/// The colour that a ray sees: L7 to L9, L14, L15, and refraction.
 namespace scc::runtime {
 
 namespace detail {
@@ -45,14 +48,22 @@ struct Encounter {
     SurfacePoint<L> point; ///< only where the scene has functions
     Vec3<L> normal;        ///< m: shading normal that faces the viewer
     IndexOf<L> material;
+    IndexOf<L> body; ///< Tag::id of what the surface encloses; only with refraction
 };
 
 /// A material's fields at a point.
 template <class L>
 struct Reflectances {
-    Rgb<L> ambient, diffuse, specular, emission, reflect;
+    Rgb<L> ambient, diffuse, specular, emission, reflect, transmit;
     L shininess;
+    L ior;
+    L fresnel; ///< 1 or 0
 };
+
+/// Where a ray goes on in two directions, one that could change a pixel by no more than this part of what is
+/// seen there is not followed: else their number doubles with each bounce.
+template <class R>
+inline constexpr R least_weight = R(1e-9);
 
 /// Strictly between: what the light itself lies on does not shadow it, up to the rounding of t.
 template <class R>
@@ -68,6 +79,12 @@ public:
 
     Shader(const S& scene, const RenderSettings& settings, RayCounts& counts)
         : scene_(scene), depth_(settings.depth), shadows_(settings.shadows), counts_(counts) {
+        if constexpr (S::traits.transmission) {
+            for (const Phong<R>& material : scene.materials) {
+                transmits_ = transmits_ || lets_through(material);
+                refracts_ = refracts_ || (lets_through(material) && (material.ior != 1 || material.fresnel));
+            }
+        }
         if constexpr (S::traits.shadows && !has_hierarchy<S>) {
             const auto balls = primitive_balls(scene);
             for (const auto& light : scene.point_lights) {
@@ -79,16 +96,19 @@ public:
         }
     }
 
-    /// What comes from along each ray of the active lanes, which meet but the candidates first. Mirrors are
-    /// followed one after the other, each weighing what is behind it; after the last bounce a mirror shows
-    /// black.
+    /// What comes from along each ray of the active lanes, which meet but the candidates first. Mirrors and
+    /// transparent surfaces are followed one after the other, each weighing what is behind it; after the last
+    /// bounce they show black. Where a ray goes on in two directions, the mirrored one waits.
     void radiance(std::array<Ray<L>, N>& rays, Apex apex, Candidates candidates,
-                  const std::array<Mask, N>& among, std::array<Rgb<L>, N>& sums) const {
+                  const std::array<Mask, N>& among, std::array<Rgb<L>, N>& sums) {
         Packs packs;
         for (std::size_t i = 0; i < packs.count; ++i) {
             packs[i].active = among[i];
             packs[i].weight = {L(1), L(1), L(1)};
             sums[i] = {L(0), L(0), L(0)};
+        }
+        if constexpr (S::traits.transmission) {
+            start(packs, rays);
         }
         for (int bounce = 0;; ++bounce) {
             std::array<Hit<L>, N> hits;
@@ -108,28 +128,24 @@ public:
                     look_up(pack);
                 }
             }
-            if (!goes_on) {
+            if (goes_on) {
+                illuminate(packs, rays);
+            } else if (!S::traits.transmission) {
                 return;
             }
-            illuminate(packs, rays);
             goes_on = false;
             for (std::size_t i = 0; i < packs.count; ++i) {
                 Pack& pack = packs[i];
-                if (none(pack.active)) {
-                    continue;
-                }
-                sums[i] = choose(pack.active, sums[i] + pack.weight * pack.light, sums[i]);
-                if constexpr (S::traits.reflection) {
-                    pack.active = pack.active & !is_black(pack.material.reflect);
-                    if (bounce >= depth_ || none(pack.active)) {
-                        continue;
+                if (any(pack.active)) {
+                    sums[i] = choose(pack.active, sums[i] + pack.weight * pack.light, sums[i]);
+                    if constexpr (S::traits.transmission) {
+                        go_through(pack, rays[i], waiting_[i]);
+                    } else if constexpr (S::traits.reflection) {
+                        goes_on = go_back(pack, rays[i], bounce) || goes_on;
                     }
-                    goes_on = true;
-                    pack.weight = pack.weight * pack.material.reflect;
-                    const Vec3<L> mirrored = reflect(rays[i].dir, pack.at.normal);
-                    rays[i] = {start_off(pack.at.surface, mirrored), mirrored, spawned_t_min<L>(),
-                               infinity<L>()};
-                    counts_.reflected += count_lanes(pack.active);
+                }
+                if constexpr (S::traits.transmission) {
+                    goes_on = take_up(pack, rays[i], waiting_[i]) || goes_on;
                 }
             }
             if (!goes_on) {
@@ -148,6 +164,16 @@ private:
         Encounter<L> at;
         Reflectances<L> material;
         Rgb<L> light; ///< that leaves the encounter towards the ray's origin, but for mirrors
+        L bounces;    ///< each ray's own, only with transmission
+        IndexOf<L> media;
+    };
+    /// A mirrored ray that waits until what is seen through its surface is done.
+    struct Branch {
+        Mask active;
+        Rgb<L> weight;
+        L bounces;
+        IndexOf<L> media;
+        Vec3<L> org, dir;
     };
     /// Without values at first: a pack has them from its first hit on, and few have one in every bounce.
     struct Packs {
@@ -165,33 +191,37 @@ private:
     void meet(const Ray<L>& ray, const Hit<L>& hit, Pack& pack) const {
         Encounter<L>& at = pack.at;
         bool first = true;
-        for_each_primitive(
-            scene_, hit, pack.active,
-            [&](const auto& primitive, const Mask& here, [[maybe_unused]] const auto inverted) {
-                Vec3<L> object_point;
-                Surface<L> surface = surface_of(scene_, primitive, ray, hit.shape, here, object_point);
-                if constexpr (uses_csg(S::traits)) {
-                    surface = inverted ? turned_over(surface) : surface;
-                }
-                const Mask back = dot(surface.normal, ray.dir) > 0;
-                const Vec3<L> normal = choose(dot(surface.shading_normal, ray.dir) > 0,
-                                              -surface.shading_normal, surface.shading_normal);
-                const Sides& sides = primitive.tag.sides;
-                using Index = IndexOf<L>;
-                const Index material = S::traits.two_sided
-                                           ? choose(back, Index(sides.back), Index(sides.front))
-                                           : Index(sides.front);
-                // Value by value, since whole structures would be copied through memory.
-                put(first, here, surface.point, at.surface.point);
-                put(first, here, surface.error, at.surface.error);
-                put(first, here, surface.normal, at.surface.normal);
-                put(first, here, normal, at.normal);
-                put(first, here, material, at.material);
-                if constexpr (S::traits.functions) {
-                    put(first, here, object_point, at.point.p);
-                }
-                first = false;
-            });
+        for_each_primitive(scene_, hit, pack.active,
+                           [&](const auto& primitive, const Mask& here, [[maybe_unused]] const auto inverted,
+                               [[maybe_unused]] std::uint32_t body) {
+                               Vec3<L> object_point;
+                               Surface<L> surface =
+                                   surface_of(scene_, primitive, ray, hit.shape, here, object_point);
+                               if constexpr (uses_csg(S::traits)) {
+                                   surface = inverted ? turned_over(surface) : surface;
+                               }
+                               const Mask back = dot(surface.normal, ray.dir) > 0;
+                               const Vec3<L> normal = choose(dot(surface.shading_normal, ray.dir) > 0,
+                                                             -surface.shading_normal, surface.shading_normal);
+                               const Sides& sides = primitive.tag.sides;
+                               using Index = IndexOf<L>;
+                               const Index material =
+                                   S::traits.two_sided ? choose(back, Index(sides.back), Index(sides.front))
+                                                       : Index(sides.front);
+                               // Value by value, since whole structures would be copied through memory.
+                               put(first, here, surface.point, at.surface.point);
+                               put(first, here, surface.error, at.surface.error);
+                               put(first, here, surface.normal, at.surface.normal);
+                               put(first, here, normal, at.normal);
+                               put(first, here, material, at.material);
+                               if constexpr (S::traits.refraction) {
+                                   put(first, here, Index(body), at.body);
+                               }
+                               if constexpr (S::traits.functions) {
+                                   put(first, here, object_point, at.point.p);
+                               }
+                               first = false;
+                           });
         if constexpr (S::traits.functions) {
             at.point.world = at.surface.point;
             at.point.n = at.surface.normal;
@@ -221,16 +251,26 @@ private:
         return L(field.value);
     }
 
+    /// f(material, lanes, whether it is the first) for each that one of the active lanes has met.
+    template <class F>
+    void for_each_material(const Pack& pack, F&& f) const {
+        const IndexOf<L>& materials = pack.at.material;
+        bool first = true;
+        Mask among = pack.active;
+        do {
+            const std::uint32_t index = lane(materials, first_lane(among));
+            const Mask here = among & (materials == IndexOf<L>(index));
+            f(scene_.materials[index], here, first);
+            first = false;
+            among = among & !here;
+        } while (any(among));
+    }
+
     /// Fills in `pack.material`.
     void look_up(Pack& pack) const {
         const Encounter<L>& at = pack.at;
         Reflectances<L>& result = pack.material;
-        bool first = true;
-        Mask among = pack.active;
-        do {
-            const std::uint32_t index = lane(at.material, first_lane(among));
-            const Mask here = among & (at.material == IndexOf<L>(index));
-            const Phong<R>& material = scene_.materials[index];
+        for_each_material(pack, [&](const Phong<R>& material, const Mask& here, bool first) {
             put(first, here, value(material.ambient, at.point), result.ambient);
             put(first, here, value(material.diffuse, at.point), result.diffuse);
             if constexpr (S::traits.emission) {
@@ -243,9 +283,229 @@ private:
             if constexpr (S::traits.reflection) {
                 put(first, here, value(material.reflect, at.point), result.reflect);
             }
-            first = false;
-            among = among & !here;
-        } while (any(among));
+            if constexpr (S::traits.transmission) {
+                put(first, here, value(material.transmit, at.point), result.transmit);
+            }
+            if constexpr (S::traits.refraction) {
+                put(first, here, L(material.ior), result.ior);
+                put(first, here, L(truth(material.fresnel)), result.fresnel);
+            }
+        });
+    }
+
+    static bool lets_through(const Phong<R>& material) {
+        return material.transmit.function != no_function || !(material.transmit.value == Rgb<R>{});
+    }
+
+    void start(Packs& packs, const std::array<Ray<L>, N>& rays) {
+        media_.clear();
+        for (std::size_t i = 0; i < packs.count; ++i) {
+            packs[i].bounces = L(0);
+            packs[i].media = IndexOf<L>(Media<R>::air);
+            if (refracts_) {
+                for_each_lane(packs[i].active, [&](int k) {
+                    const Vec3<L>& org = rays[i].org;
+                    set_lane(packs[i].media, k, media_at({lane(org.x, k), lane(org.y, k), lane(org.z, k)}));
+                });
+            }
+        }
+    }
+    template <class F>
+    static void for_each_lane(const Mask& among, F&& f) {
+        for (unsigned left = bits(among); left != 0; left &= left - 1) {
+            f(__builtin_ctz(left));
+        }
+    }
+
+    /// Sends a pack's rays back from mirrors; whether some go on.
+    bool go_back(Pack& pack, Ray<L>& ray, int bounce) const {
+        pack.active = pack.active & !is_black(pack.material.reflect);
+        if (bounce >= depth_ || none(pack.active)) {
+            return false;
+        }
+        pack.weight = pack.weight * pack.material.reflect;
+        const Vec3<L> mirrored = reflect(ray.dir, pack.at.normal);
+        ray = {start_off(pack.at.surface, mirrored), mirrored, spawned_t_min<L>(), infinity<L>()};
+        counts_.reflected += count_lanes(pack.active);
+        return true;
+    }
+
+    /// Sends a pack's rays through the surfaces that they have met and, where none is seen through, back from
+    /// mirrors; mirrored rays of the others are left waiting.
+    void go_through(Pack& pack, Ray<L>& ray, std::vector<Branch>& waiting) {
+        const Reflectances<L>& material = pack.material;
+        Mask through = pack.active & !is_black(material.transmit);
+        Rgb<L> reflected{L(0), L(0), L(0)}, transmitted = material.transmit;
+        if constexpr (S::traits.reflection) {
+            reflected = material.reflect;
+        }
+        Vec3<L> dir = ray.dir;
+        L bounces = pack.bounces;
+        IndexOf<L> media = pack.media;
+        if constexpr (S::traits.refraction) {
+            const Mask dielectric = through | (pack.active & (material.fresnel != 0));
+            if (refracts_ && any(dielectric)) {
+                L from(1), to(1);
+                cross(pack, dielectric, media, from, to);
+                const Mask bent = dielectric & (from != to);
+                const Refraction<L> refraction = refract(ray.dir, pack.at.normal, from, to);
+                const Mask total = bent & through & refraction.is_total;
+                const L share = choose(bent, refraction.reflectance, L(0));
+                const Mask fresnel = dielectric & (material.fresnel != 0);
+                reflected = choose(fresnel, reflected * share, reflected);
+                transmitted = choose(fresnel, transmitted * (1 - share), transmitted);
+                reflected = choose(total, Rgb<L>{L(1), L(1), L(1)}, reflected);
+                through = through & !total & !(bent & (bounces >= L(static_cast<R>(depth_))));
+                counts_.refracted += count_lanes(bent & through);
+                dir = choose(bent, refraction.dir, dir);
+                bounces = choose(bent, bounces + 1, bounces);
+            }
+        }
+        through = through & !is_black(transmitted);
+        Mask mirrored = pack.active & !is_black(reflected) & (pack.bounces < L(static_cast<R>(depth_)));
+        const Mask both = through & mirrored;
+        const Rgb<L> mirrored_weight = pack.weight * reflected, through_weight = pack.weight * transmitted;
+        mirrored = mirrored & !(both & is_slight(mirrored_weight));
+        through = through & !(both & is_slight(through_weight));
+        counts_.reflected += count_lanes(mirrored);
+        Branch branch{Mask(mirrored & through), mirrored_weight, pack.bounces + 1, pack.media, {}, {}};
+        if (any(mirrored)) {
+            branch.dir = reflect(ray.dir, pack.at.normal);
+            branch.org = start_off(pack.at.surface, branch.dir);
+            if (any(branch.active)) {
+                waiting.push_back(branch);
+            }
+        }
+        const Vec3<L> org = start_off(pack.at.surface, dir);
+        pack.active = through | mirrored;
+        pack.weight = choose(through, through_weight, mirrored_weight);
+        pack.bounces = choose(through, bounces, branch.bounces);
+        pack.media = choose(through, media, branch.media);
+        ray = {choose(through, org, branch.org), choose(through, dir, branch.dir), spawned_t_min<L>(),
+               infinity<L>()};
+    }
+    static Mask is_slight(const Rgb<L>& weight) {
+        return maximum(maximum(weight.r, weight.g), weight.b) < L(least_weight<R>);
+    }
+
+    /// The media behind the surfaces that lanes have met, and the indices of refraction on both sides.
+    void cross(const Pack& pack, const Mask& among, IndexOf<L>& media, L& from, L& to) {
+        for_each_lane(among, [&](int k) {
+            const typename Media<R>::Crossing crossing =
+                media_.cross(lane(pack.media, k), lane(pack.at.body, k), lane(pack.material.ior, k));
+            set_lane(media, k, crossing.media);
+            set_lane(from, k, crossing.from);
+            set_lane(to, k, crossing.to);
+        });
+    }
+
+    /// Gives a pack without active rays the last of those that wait; whether it has some.
+    bool take_up(Pack& pack, Ray<L>& ray, std::vector<Branch>& waiting) const {
+        if (none(pack.active) && !waiting.empty()) {
+            const Branch& branch = waiting.back();
+            pack.active = branch.active;
+            pack.weight = branch.weight;
+            pack.bounces = branch.bounces;
+            pack.media = branch.media;
+            ray = {branch.org, branch.dir, spawned_t_min<L>(), infinity<L>()};
+            waiting.pop_back();
+        }
+        return any(pack.active);
+    }
+
+    /// What a ray that starts at a place is in.
+    std::uint32_t media_at(const Vec3<R>& place) {
+        if (!(place == start_)) {
+            start_ = place;
+            around_start_ = bodies_around(place);
+        }
+        std::uint32_t media = Media<R>::air;
+        for (const Body& body : around_start_) {
+            media = media_.push(media, body.id, body.ior);
+        }
+        return media;
+    }
+
+    /// A transparent body that a ray from the place in question has met.
+    struct Body {
+        std::uint32_t id;
+        R ior;
+        bool by_count;      ///< of a mesh, whose normals may point to either side
+        bool leaves_first;  ///< the first time the ray met it was from inside
+        bool crosses_oddly; ///< the ray met it an odd number of times
+    };
+
+    /// The bodies that a place is in, from the outermost one. A ray from there leaves the inner ones first.
+    /// Two opposite rays, since one may go away from the surface of a body without end; in a direction in
+    /// which edges are rare.
+    std::vector<Body> bodies_around(const Vec3<R>& place) const {
+        const Vec3<R> dir{R(0.4837), R(0.7512), R(-0.4493)};
+        const std::vector<Body> met = bodies_along(place, dir), opposite = bodies_along(place, -dir);
+        const auto same = [](const std::vector<Body>& list, const Body& body) {
+            return std::find_if(list.begin(), list.end(), [&](const Body& b) { return b.id == body.id; });
+        };
+        std::vector<Body> around;
+        for (const Body& body : met) {
+            const auto other = same(opposite, body);
+            if (body.by_count ? body.crosses_oddly && other != opposite.end() && other->crosses_oddly
+                              : body.leaves_first) {
+                around.push_back(body);
+            }
+        }
+        for (const Body& body : opposite) {
+            if (!body.by_count && body.leaves_first && same(around, body) == around.end()) {
+                around.push_back(body);
+            }
+        }
+        std::reverse(around.begin(), around.end());
+        return around;
+    }
+
+    /// The transparent bodies that a ray meets, in the order in which it first does.
+    std::vector<Body> bodies_along(const Vec3<R>& place, const Vec3<R>& direction) const {
+        std::vector<Body> bodies;
+        Mask one(false);
+        set_lane(one, 0, true);
+        const Vec3<L> dir = lanes<L>(direction);
+        Ray<L> ray{lanes<L>(place), dir, L(0), choose(one, infinity<L>(), -infinity<L>())};
+        while (true) {
+            Hit<L> hit;
+            closest_hits<N, S, L>(scene_, {&ray, 1}, Apex::none, {&hit, 1});
+            if (lane(hit.kind, 0) == no_kind) {
+                return bodies;
+            }
+            Packs packs;
+            Pack& pack = packs[0];
+            pack.active = one;
+            meet(ray, hit, pack);
+            add_body(bodies, hit, one, lane(dot(pack.at.surface.normal, dir), 0) > 0);
+            ray = {start_off(pack.at.surface, dir), dir, spawned_t_min<L>(),
+                   choose(one, infinity<L>(), -infinity<L>())};
+        }
+    }
+    void add_body(std::vector<Body>& bodies, const Hit<L>& hit, const Mask& one, bool leaves) const {
+        for_each_primitive(
+            scene_, hit, one,
+            [&]<class Primitive>(const Primitive& primitive, const Mask&, auto, std::uint32_t id) {
+                const auto known =
+                    std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.id == id; });
+                const Phong<R>&front = scene_.materials[primitive.tag.sides.front],
+                      &back = scene_.materials[primitive.tag.sides.back];
+                if (known != bodies.end()) {
+                    known->crosses_oddly = !known->crosses_oddly;
+                } else if (is_closed(primitive.shape) && (lets_through(front) || lets_through(back))) {
+                    bodies.push_back({id, lets_through(front) ? front.ior : back.ior,
+                                      is_mesh<decltype(primitive.shape)>, leaves, true});
+                }
+            });
+    }
+    template <class Shape>
+    static bool is_closed(const Shape& shape) {
+        if constexpr (requires { shape.caps; }) {
+            return shape.caps;
+        } else {
+            return is_solid<Shape> || is_mesh<Shape>;
+        }
     }
 
     void illuminate(Packs& packs, const std::array<Ray<L>, N>& rays) const {
@@ -273,6 +533,7 @@ private:
         std::array<LightAt<L>, N> seen;
         std::array<L, N> cosine;
         std::array<Mask, N> lit;
+        Filters filters;
         bool any_lit = false;
         for (std::size_t i = 0; i < packs.count; ++i) {
             lit[i] = packs[i].active;
@@ -287,17 +548,24 @@ private:
         if (!any_lit) {
             return;
         }
-        take_shadowed(light, index, packs, lit);
+        take_shadowed(light, index, packs, lit, filters);
         for (std::size_t i = 0; i < packs.count; ++i) {
             if (any(lit[i])) {
-                add(light, packs[i], rays[i].dir, seen[i], cosine[i], lit[i]);
+                add(light, packs[i], rays[i].dir, seen[i], cosine[i], lit[i], filters.list[i]);
             }
         }
     }
+    /// What transparent surfaces leave of a light; without values where the scene has none.
+    struct Filters {
+        Filters() {}
+        union {
+            std::array<Rgb<L>, N> list;
+        };
+    };
 
     template <class Light>
     void add(const Light& light, Pack& pack, const Vec3<L>& dir, const LightAt<L>& seen, const L& cosine,
-             const Mask& lit) const {
+             const Mask& lit, [[maybe_unused]] const Rgb<L>& filter) const {
         const Reflectances<L>& material = pack.material;
         Rgb<L> reflected = lanes<L>(light.diffuse) * material.diffuse * cosine;
         if constexpr (S::traits.specular) {
@@ -314,16 +582,29 @@ private:
                 reflected = reflected / attenuation(light, seen.distance);
             }
         }
+        if constexpr (S::traits.transmission && S::traits.shadows) {
+            reflected = reflected * filter;
+        }
         pack.light = choose(lit, pack.light + reflected, pack.light);
     }
 
-    /// L14: feelers that start off the surfaces, for the lit lanes.
+    /// L14: feelers that start off the surfaces, for the lit lanes. They go straight through transparent
+    /// surfaces.
     template <class Light>
     void take_shadowed(const Light& light, [[maybe_unused]] std::size_t index, const Packs& packs,
-                       std::array<Mask, N>& lit) const {
+                       std::array<Mask, N>& lit, [[maybe_unused]] Filters& filters) const {
         if constexpr (S::traits.shadows) {
+            if constexpr (S::traits.transmission) {
+                filters.list.fill({L(1), L(1), L(1)});
+            }
             if (!shadows_) {
                 return;
+            }
+            if constexpr (S::traits.transmission) {
+                if (transmits_) {
+                    filter(light, index, packs, lit, filters.list);
+                    return;
+                }
             }
             std::array<Ray<L>, N> rays;
             std::array<Mask, N> blocked;
@@ -345,6 +626,55 @@ private:
                 lit[i] = lit[i] & !blocked[i];
             }
         }
+    }
+    /// Multiplies by what each surface on the way to the light lets through.
+    template <class Light>
+    void filter(const Light& light, [[maybe_unused]] std::size_t index, const Packs& packs,
+                std::array<Mask, N>& lit, std::array<Rgb<L>, N>& filters) const {
+        std::array<Ray<L>, N> rays;
+        std::array<Mask, N> open = lit;
+        for (std::size_t i = 0; i < packs.count; ++i) {
+            if (any(open[i])) {
+                counts_.shadow += count_lanes(open[i]);
+                rays[i] = feeler(light, packs.list[i].at.surface);
+            }
+        }
+        Candidates candidates = all_candidates;
+        if constexpr (!has_hierarchy<S>) {
+            candidates = occluders(light, index).before(rays[0], lit[0]);
+        }
+        bool goes_on = true;
+        while (goes_on) {
+            std::array<Hit<L>, N> hits;
+            for (std::size_t i = 0; i < packs.count; ++i) {
+                rays[i].t_max = choose(open[i], rays[i].t_max, -infinity<L>());
+            }
+            closest_hits<N, S, L>(scene_, rays, apex_of(light), hits, candidates);
+            goes_on = false;
+            for (std::size_t i = 0; i < packs.count; ++i) {
+                open[i] = open[i] & (hits[i].kind != IndexOf<L>(no_kind));
+                if (any(open[i])) {
+                    pass(light, rays[i], hits[i], open[i], filters[i]);
+                    lit[i] = lit[i] & !is_black(filters[i]);
+                    open[i] = open[i] & lit[i];
+                    goes_on = goes_on || any(open[i]);
+                }
+            }
+        }
+    }
+    /// Takes feelers through the surfaces that they have met.
+    template <class Light>
+    void pass(const Light& light, Ray<L>& ray, const Hit<L>& hit, const Mask& open, Rgb<L>& filter) const {
+        Packs packs;
+        Pack& pack = packs[0];
+        pack.active = open;
+        meet(ray, hit, pack);
+        Rgb<L> transmit;
+        for_each_material(pack, [&](const Phong<R>& material, const Mask& here, bool first) {
+            put(first, here, value(material.transmit, pack.at.point), transmit);
+        });
+        filter = choose(open, filter * transmit, filter);
+        ray = feeler(light, pack.at.surface);
     }
     const Occluders<PointLight<R>>& occluders(const PointLight<R>&, std::size_t index) const {
         return point_occluders_[index];
@@ -368,6 +698,12 @@ private:
     int depth_;
     bool shadows_;
     RayCounts& counts_;
+    bool transmits_ = false; ///< some material lets light through
+    bool refracts_ = false;  ///< and has an index of refraction
+    Media<R> media_;
+    std::array<std::vector<Branch>, N> waiting_; ///< of each pack
+    Vec3<R> start_{std::numeric_limits<R>::quiet_NaN(), 0, 0};
+    std::vector<Body> around_start_;                        ///< that it is in, from the outermost one
     std::vector<Occluders<PointLight<R>>> point_occluders_; ///< by the light's index, without a hierarchy
     std::vector<Occluders<DirectionalLight<R>>> directional_occluders_;
 };

@@ -91,7 +91,7 @@ std::string statistics(const Drawable& drawable, const runtime::RenderRequest& r
     times.push_back(member("write", write_ms));
     times.push_back(member("total", total));
     const runtime::RayCounts& rays = result.rays;
-    const auto count = static_cast<double>(rays.primary + rays.shadow + rays.reflected);
+    const auto count = static_cast<double>(rays.primary + rays.shadow + rays.reflected + rays.refracted);
     std::vector<std::string> features;
     for (const std::string& feature : drawable.features) {
         features.push_back(json(feature));
@@ -109,7 +109,7 @@ std::string statistics(const Drawable& drawable, const runtime::RenderRequest& r
         "\"times_ms\": " + list("{}", times, 4),
         "\"rays\": " + list("{}",
                             {member("primary", rays.primary), member("shadow", rays.shadow),
-                             member("reflected", rays.reflected), member("refracted", 0),
+                             member("reflected", rays.reflected), member("refracted", rays.refracted),
                              member("undecided", rays.undecided), member("at_jumps", rays.at_jumps)},
                             4),
         member("out_of_gamut", out_of_gamut(image)),

@@ -44,17 +44,18 @@ std::string problem(const Solid<R>& solid, const Ray<R>& ray, const Hit<R>& hit,
         return "no change at the hit";
     }
     std::string wrong;
-    for_each_primitive(solid.scene, hit, true, [&](const auto& primitive, bool here, bool inverted) {
-        Vec3<R> object_point;
-        Surface<R> surface = surface_of(solid.scene, primitive, ray, hit.shape, here, object_point);
-        surface = inverted ? turned_over(surface) : surface;
-        const Wide p = lanes<long double>(surface.point), n = lanes<long double>(surface.normal);
-        if (length(p - at(end)) > blur * 4) {
-            wrong = "the surface is elsewhere";
-        } else if (!solid.contains(p - n * blur) || solid.contains(p + n * blur)) {
-            wrong = "the normal does not point out of the solid";
-        }
-    });
+    for_each_primitive(
+        solid.scene, hit, true, [&](const auto& primitive, bool here, bool inverted, std::uint32_t) {
+            Vec3<R> object_point;
+            Surface<R> surface = surface_of(solid.scene, primitive, ray, hit.shape, here, object_point);
+            surface = inverted ? turned_over(surface) : surface;
+            const Wide p = lanes<long double>(surface.point), n = lanes<long double>(surface.normal);
+            if (length(p - at(end)) > blur * 4) {
+                wrong = "the surface is elsewhere";
+            } else if (!solid.contains(p - n * blur) || solid.contains(p + n * blur)) {
+                wrong = "the normal does not point out of the solid";
+            }
+        });
     return wrong;
 }
 

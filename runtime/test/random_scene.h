@@ -212,7 +212,7 @@ struct SingleShape {
     };
     Place surface(const Ray<R>& ray, const Hit<R>& hit) const {
         Place result;
-        for_each_primitive(scene, hit, true, [&](const auto& primitive, bool here, bool) {
+        for_each_primitive(scene, hit, true, [&](const auto& primitive, bool here, bool, std::uint32_t) {
             result.surface = surface_of(scene, primitive, ray, hit.shape, here, result.object_point);
         });
         return result;

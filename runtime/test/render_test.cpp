@@ -95,6 +95,8 @@ struct Crowd {
             material.specular.value = i == 0 ? Rgb<R>{} : color(0.5);
             material.reflect.value = i == 1 ? color(0.6) : Rgb<R>{};
             material.emission.value = i == 2 ? color(0.2) : Rgb<R>{};
+            material.transmit.value = i == 1 || i == 3 ? color(0.9) : Rgb<R>{};
+            material.ior = i == 1 ? R(1.4) : 1;
             scene.materials.push_back(material);
         }
         scene.materials[3].diffuse.function = 0;
@@ -134,6 +136,7 @@ TYPED_TEST(Rendering, LeavingOutWhatASceneLacksChangesNothing) {
         result.placed_shapes = 1U << 0 | 1U << 7;
         result.directional_lights = result.attenuation = result.separate_specular = result.emission = false;
         result.reflection = result.two_sided = result.functions = result.smooth_normals = false;
+        result.transmission = result.refraction = false;
         result.accelerator = result.orthographic = false;
         return result;
     }();
@@ -183,6 +186,53 @@ TYPED_TEST(Rendering, SingleLanesDrawTheImageOfFullRegisters) {
     Image one_by_one(101, 75);
     render_with_lanes<TypeParam>(crowd.scene, wanted, one_by_one);
     EXPECT_TRUE(same_bits(image, one_by_one));
+}
+
+/// A ball of glass with a bubble before a checker, and a tinted pane.
+template <class R>
+DynamicScene<R> glass_scene() {
+    DynamicScene<R> scene;
+    const auto material = [&](R transmit, R ior, bool fresnel) {
+        Phong<R>& made = scene.materials.emplace_back();
+        made.transmit.value = {transmit, transmit, R(0.9)};
+        made.ior = ior;
+        made.fresnel = fresnel;
+        made.reflect.value = fresnel ? Rgb<R>{1, 1, 1} : Rgb<R>{};
+    };
+    material(0, 1, false);
+    scene.materials[0].transmit.value = {};
+    scene.materials[0].diffuse.value = {R(0.3), R(0.5), R(0.7)};
+    material(1, R(1.5), true);
+    material(1, 1, true);
+    material(R(0.5), 1, false);
+    scene.add(Bare<Plane<R>>{{{0, 1, 0}, -1}, {0, {0, 0}}});
+    scene.add(Bare<Sphere<R>>{{{0, 0, 0}, 1}, {1, {1, 1}}});
+    scene.add(Bare<Sphere<R>>{{{R(0.2), R(0.1), 0}, R(0.4)}, {2, {2, 2}}});
+    scene.add(Bare<Box<R>>{{{1, -1, -1}, {R(1.2), 1, 1}}, {3, {3, 3}}});
+    scene.point_lights.push_back({{3, 5, 4}, {1, 1, 1}, {1, 1, 1}});
+    scene.background = {R(0.1), R(0.2), R(0.3)};
+    scene.ambient = {R(0.3), R(0.3), R(0.3)};
+    scene.camera.eye = {0, R(0.5), 5};
+    prepare(scene);
+    return scene;
+}
+
+TYPED_TEST(Rendering, BranchingRaysDrawTheSameInAnyPackAndInNarrowKernels) {
+    constexpr SceneTraits narrow{.bare_shapes = 1U << 0 | 1U << 1 | 1U << 3,
+                                 .point_lights = true,
+                                 .reflection = true,
+                                 .transmission = true,
+                                 .refraction = true,
+                                 .shadows = true,
+                                 .perspective = true};
+    const DynamicScene<TypeParam> scene = glass_scene<TypeParam>();
+    const RenderRequest wanted = request(101, 75);
+    const Image generic = draw(scene, wanted);
+    EXPECT_TRUE(is_varied(generic));
+    EXPECT_TRUE(same_bits(generic, draw(Restricted<TypeParam, narrow>(scene), wanted)));
+    Image one_by_one(101, 75);
+    render_with_lanes<TypeParam>(scene, wanted, one_by_one);
+    EXPECT_TRUE(same_bits(generic, one_by_one));
 }
 
 TYPED_TEST(Rendering, ThreadsAndCropsDoNotChangeThePixels) {

@@ -222,4 +222,286 @@ TEST(Shade, SmoothNormalsShadeAndGeometricNormalsChooseTheSide) {
     EXPECT_EQ(seen(scene, {0, -2, 0}, {0, 1, 0}), 0);
 }
 
+// ---- transparency and refraction
+// ---------------------------------------------------------------------------
+
+Phong<double> clear(double ior, double transmit = 1) {
+    Phong<double> result = diffuse(0, 0);
+    result.transmit.value = gray(transmit);
+    result.ior = ior;
+    return result;
+}
+Phong<double> glass(double ior) {
+    Phong<double> result = clear(ior);
+    result.reflect.value = gray(1);
+    result.fresnel = true;
+    return result;
+}
+
+/// A floor at y = 0 that shows where it is seen: x, z and how often it was dimmed.
+Scene ruled_floor() {
+    Phong<double> ruled;
+    ruled.ambient.function = 0;
+    ruled.diffuse.value = gray(0);
+    Scene scene = floor_scene(ruled);
+    scene.ambient = gray(1);
+    scene.background = gray(0);
+    scene.functions.push_back({{{Opcode::world_x}, {Opcode::world_z}, {Opcode::constant, {}, 1}}, {0, 1, 2}});
+    return scene;
+}
+
+void add_slab(Scene& scene, double bottom, double top, const Phong<double>& material) {
+    const auto id = static_cast<std::uint32_t>(scene.materials.size());
+    scene.materials.push_back(material);
+    scene.add(Bare<Box<double>>{{{-1000 + bottom, bottom, -1000 + bottom}, {1000 + top, top, 1000 + top}},
+                                {id, {id, id}}});
+}
+
+Rgb<double> color_seen(const Scene& scene, const V& eye, const V& dir, int depth = 5) {
+    RayCounts counts;
+    RenderSettings settings;
+    settings.depth = depth;
+    return radiance(scene, settings, counts, {eye, dir});
+}
+
+double sine(double degrees) {
+    return std::sin(degrees * 3.14159265358979323846 / 180);
+}
+/// How far a ray goes sideways while it goes through a layer; `sine` is that of its angle in air.
+double sideways(double thickness, double sine, double ior) {
+    return thickness * (sine / ior) / std::sqrt(1 - sine / ior * (sine / ior));
+}
+/// A ray that comes down from height 10 above x = 0.
+Rgb<double> seen_down(const Scene& scene, double sine, int depth = 5) {
+    return color_seen(scene, {0, 10, 0}, {2 * sine, -2 * std::sqrt(1 - sine * sine), 0}, depth);
+}
+
+TEST(Optics, ASlabMovesWhatIsBehindItAside) {
+    Scene scene = ruled_floor();
+    add_slab(scene, 3, 5, clear(1.5, 0.5));
+    for (const double degrees : {0.0, 30.0, 60.0, 85.0}) {
+        const double s = sine(degrees);
+        const Rgb<double> c = seen_down(scene, s);
+        EXPECT_NEAR(c.r, 0.25 * (sideways(8, s, 1) + sideways(2, s, 1.5)), 1e-12) << degrees;
+        EXPECT_NEAR(c.g, 0, 1e-12);
+        EXPECT_DOUBLE_EQ(c.b, 0.25) << "at every surface the light is dimmed";
+    }
+}
+
+TEST(Optics, NestedBodiesRefractByWhatIsAroundThem) {
+    for (const double inner : {1.33, 1.0, 1.5, 2.4}) { // water, air, the same glass, diamond
+        Scene scene = ruled_floor();
+        add_slab(scene, 2, 6, clear(1.5));
+        add_slab(scene, 3, 5, clear(inner));
+        const double s = sine(50);
+        EXPECT_NEAR(seen_down(scene, s).r, sideways(6, s, 1) + sideways(2, s, 1.5) + sideways(2, s, inner),
+                    1e-12)
+            << inner;
+    }
+}
+
+TEST(Optics, WhereBodiesOverlapTheLastOneEnteredCounts) {
+    Scene scene = ruled_floor();
+    add_slab(scene, 4, 8, clear(1.5));
+    add_slab(scene, 2, 6, clear(1.33));
+    const double s = sine(50);
+    EXPECT_NEAR(seen_down(scene, s).r, sideways(4, s, 1) + sideways(2, s, 1.5) + sideways(4, s, 1.33), 1e-12);
+    EXPECT_EQ(seen_down(scene, s, 2).b, 0) << "after two bounces";
+    EXPECT_EQ(seen_down(scene, s, 3).b, 1) << "leaving the covered body is none";
+}
+
+TEST(Optics, HundredsOfBodiesNestInEachOther) {
+    Scene scene = ruled_floor();
+    const double s = sine(40);
+    double expected = sideways(4, s, 1);
+    for (int i = 0; i < 300; ++i) {
+        const double ior = i % 2 == 0 ? 1.5 : 1.2, edge = i * 0.01;
+        add_slab(scene, 2 + edge, 8 - edge, clear(ior));
+        expected += sideways(i < 299 ? 0.02 : 6 - 2 * edge, s, ior);
+    }
+    prepare(scene);
+    EXPECT_NEAR(seen_down(scene, s, 1000).r, expected, 1e-9);
+}
+
+TEST(Optics, BeyondTheCriticalAngleSurfacesAreMirrorsThatNothingDims) {
+    Phong<double> material = clear(1.5, 0.5);
+    material.reflect.value = gray(0.125);
+    Scene scene = ruled_floor();
+    add_slab(scene, 3, 5, material);
+    const double critical = std::asin(1 / 1.5);
+    const auto looking_up = [&](double angle) {
+        return color_seen(scene, {0, 4, 0}, {std::sin(angle), std::cos(angle), 0}, 2);
+    };
+    EXPECT_NEAR(looking_up(critical - 1e-6).b, 0.125 * 0.5, 1e-12) << "mirrored, then out of the other face";
+    EXPECT_EQ(looking_up(critical + 1e-6).b, 0) << "mirrored to and fro";
+    scene = ruled_floor();
+    scene.add(Bare<Plane<double>>{{{0, 1, 0}, 5}, {1, {1, 1}}});
+    scene.materials.push_back(material);
+    const Rgb<double> total = color_seen(scene, {0, 4, 0}, {1, 1, 0});
+    EXPECT_DOUBLE_EQ(total.b, 1);
+    EXPECT_NEAR(total.r, 1 + 5, 1e-12);
+}
+
+/// By the formula of Cook and Torrance.
+double fresnel(double ior, double cosine) {
+    const double g = std::sqrt(ior * ior + cosine * cosine - 1);
+    const double ratio = (cosine * (g + cosine) - 1) / (cosine * (g - cosine) + 1);
+    return 0.5 * (g - cosine) * (g - cosine) / ((g + cosine) * (g + cosine)) * (1 + ratio * ratio);
+}
+
+TEST(Optics, GlassMirrorsByFresnelsEquations) {
+    for (const double degrees : {0.0, 45.0, 80.0}) {
+        Scene scene = floor_scene(diffuse(0.5, 0));
+        scene.ambient = gray(1);
+        scene.background = gray(8);
+        scene.materials.push_back(glass(1.5));
+        scene.materials[1].transmit.value = {1, 0.5, 0};
+        scene.add(Bare<Plane<double>>{{{0, 1, 0}, 5}, {1, {1, 1}}});
+        const double s = sine(degrees), f = fresnel(1.5, std::sqrt(1 - s * s));
+        const Rgb<double> c = seen_down(scene, s, 1);
+        EXPECT_NEAR(c.r, 8 * f + 0.5 * (1 - f), 1e-13) << degrees;
+        EXPECT_NEAR(c.g, 8 * f + 0.25 * (1 - f), 1e-13) << degrees;
+        EXPECT_NEAR(c.b, 8 * f, 1e-13) << degrees;
+    }
+    EXPECT_NEAR(fresnel(1.5, 1), 0.04, 1e-15);
+}
+
+TEST(Optics, InsideOutReflectancesAreThoseOfTheRefractedAngle) {
+    Scene scene = floor_scene(diffuse(0.5, 0));
+    scene.ambient = gray(1);
+    scene.background = gray(8);
+    scene.materials.push_back(glass(1.5));
+    scene.add(Bare<Plane<double>>{{{0, 1, 0}, 5}, {1, {1, 1}}});
+    const double s = sine(60) / 1.5, f = fresnel(1.5, std::cos(std::asin(sine(60))));
+    const Rgb<double> c = color_seen(scene, {0, 4, 0}, {s, std::sqrt(1 - s * s), 0}, 1);
+    EXPECT_NEAR(c.r, 8 * (1 - f) + 0.5 * f, 1e-13);
+}
+
+TEST(Optics, ABallGathersParallelLightInItsFocus) {
+    for (const double ior : {1.5, 1.33, 1.8}) {
+        Scene scene = ruled_floor();
+        scene.materials.push_back(clear(ior));
+        const double focus = ior / (2 * (ior - 1)); // from the centre, for radius 1
+        scene.add(Bare<Sphere<double>>{{{0, focus, 0}, 1}, {1, {1, 1}}});
+        const double off = 1e-3; // the rest is of third order
+        EXPECT_NEAR(color_seen(scene, {off, 9, 0}, down).r, 0, 5e-9) << ior;
+        EXPECT_NEAR(color_seen(scene, {0, 9, off}, down).g, 0, 5e-9) << ior;
+    }
+}
+
+TEST(Optics, ACameraMayStandInTransparentBodies) {
+    const double s = sine(30);
+    const auto from = [&](const Scene& scene, double height) {
+        return color_seen(scene, {0, height, 0}, {s, -std::sqrt(1 - s * s), 0}).r;
+    };
+    Scene scene = ruled_floor();
+    add_slab(scene, 3, 5, clear(1.5));
+    EXPECT_NEAR(from(scene, 4), sideways(1, s, 1) + sideways(3, 1.5 * s, 1), 1e-12);
+    scene.materials.push_back(clear(1.33));
+    scene.add(Bare<Sphere<double>>{{{0, 4, 0}, 0.5}, {2, {2, 2}}});
+    EXPECT_NEAR(color_seen(scene, {0, 4, 0}, {s, -std::sqrt(1 - s * s), 0}).r,
+                sideways(1, s, 1) + sideways(3, 1.5 * s, 1), 1e-12)
+        << "from the ball's centre nothing bends at its surface";
+    Scene sea = ruled_floor(); // water without end, above the floor, below which it goes on
+    sea.materials.push_back(clear(1.33));
+    sea.add(Bare<Plane<double>>{{{0, -1, 0}, -2}, {1, {1, 1}}}); // everything above y = 2
+    EXPECT_NEAR(from(sea, 5), sideways(3, s, 1) + sideways(2, 1.33 * s, 1), 1e-12);
+    Scene sheet = ruled_floor(); // an open surface has no inside
+    sheet.materials.push_back(clear(1.5));
+    sheet.add(Bare<Disc<double>>{{{0, 2, 0}, {0, 1, 0}, 100, 0}, {1, {1, 1}}});
+    EXPECT_NEAR(from(sheet, 5), sideways(3, s, 1) + sideways(2, s, 1.5), 1e-12);
+}
+
+TEST(Optics, SolidsAreOneBody) {
+    Scene scene = ruled_floor();
+    scene.materials.push_back(clear(1.5));
+    const auto member = [&](std::uint32_t id, double bottom, double top, bool inverted) {
+        scene.add(
+            Member<Bare<Box<double>>>{{{{-500, bottom, -500}, {500, top, 500}}, {id, {1, 1}}}, inverted, 1});
+    };
+    scene.add(Bare<Csg<double>>{{0}, {1, {1, 1}}});
+    constexpr std::uint32_t box = 2; // two kinds per row of Shapes
+    scene.csg_nodes = {{CsgOp::subtract, 3, {}}, {CsgOp::member, 1, {box, 0}}, {CsgOp::member, 1, {box, 1}}};
+    member(2, 2, 6, false);
+    member(3, 3, 5, true);
+    const double s = sine(50);
+    EXPECT_NEAR(seen_down(scene, s).r, sideways(8, s, 1) + sideways(2, s, 1.5), 1e-12);
+}
+
+TEST(Optics, WhereNothingBendsNoBounceIsTaken) {
+    Scene scene = ruled_floor();
+    for (int i = 0; i < 4; ++i) {
+        add_slab(scene, 2 * i + 1, 2 * i + 2, clear(1, 0.5));
+    }
+    EXPECT_DOUBLE_EQ(seen_down(scene, 0, 0).b, std::pow(0.5, 8));
+    Scene bent = ruled_floor();
+    add_slab(bent, 3, 5, clear(1.5));
+    EXPECT_EQ(seen_down(bent, 0, 1).b, 0);
+    EXPECT_EQ(seen_down(bent, 0, 2).b, 1);
+}
+
+TEST(Optics, WhatAPaneShowsIsItsOwnColorWhatItMirrorsAndWhatIsBehind) {
+    Phong<double> pane = diffuse(0.3, 0.2);
+    pane.reflect.value = gray(0.125);
+    pane.transmit.value = {0.5, 0.25, 0};
+    Scene scene = floor_scene(diffuse(0.4, 0));
+    scene.materials.push_back(pane);
+    scene.add(Bare<Disc<double>>{{{0, 5, 0}, {0, 1, 0}, 1, 0}, {1, {1, 1}}});
+    scene.directional_lights.push_back({{0, 1, 0}, gray(1), gray(1)});
+    const Rgb<double> c = color_seen(scene, {0, 10, 0}, down);
+    const double own = 0.5 * 0.3 + 0.2, mirrored = 0.125 * 0.25, floor = 0.5 * 0.4;
+    EXPECT_DOUBLE_EQ(c.r, own + mirrored + 0.5 * floor);
+    EXPECT_DOUBLE_EQ(c.g, own + mirrored + 0.25 * floor);
+    EXPECT_DOUBLE_EQ(c.b, own + mirrored);
+}
+
+TEST(Optics, ShadowsHaveTheColorOfWhatTheLightGoesThrough) {
+    const auto lit = [](const auto& light, double ior) {
+        Scene scene = floor_scene(diffuse(0, 1));
+        scene.background = gray(0);
+        scene.materials.push_back(clear(ior));
+        scene.materials[1].transmit.value = {0.9, 0.5, 0};
+        scene.materials.push_back(clear(1, 0.5));
+        scene.materials[2].reflect.value = gray(0.5);
+        if constexpr (requires { light.position; }) {
+            scene.point_lights.push_back(light);
+        } else {
+            scene.directional_lights.push_back(light);
+        }
+        scene.add(Bare<Box<double>>{{{-1, 2, -1}, {1, 3, 1}}, {1, {1, 1}}});
+        scene.add(Bare<Disc<double>>{{{0, 1, 0}, {0, 1, 0}, 0.5, 0}, {2, {2, 2}}});
+        return color_seen(scene, {2, 2, 0}, {-2, -2, 0});
+    };
+    for (const double ior : {1.0, 1.5}) { // no matter
+        for (const Rgb<double>& c :
+             {lit(lamp({0, 5, 0}), ior), lit(DirectionalLight<double>{{0, 1, 0}, gray(1), gray(1)}, ior)}) {
+            EXPECT_DOUBLE_EQ(c.r, 0.9 * 0.9 * 0.5);
+            EXPECT_DOUBLE_EQ(c.g, 0.5 * 0.5 * 0.5);
+            EXPECT_DOUBLE_EQ(c.b, 0);
+        }
+        EXPECT_DOUBLE_EQ(lit(lamp({0, 2.5, 0}), ior).r, 0.9 * 0.5) << "a lamp in the glass";
+        EXPECT_DOUBLE_EQ(lit(lamp({0, 1.5, 0}), ior).b, 0.5) << "a lamp in front of it";
+    }
+}
+
+TEST(Optics, TransmissionMayDifferFromPointToPoint) {
+    Scene scene = ruled_floor();
+    add_slab(scene, 3, 5, clear(1));
+    scene.materials[1].transmit.function = 1;
+    scene.functions.push_back({{{Opcode::world_x}}, {0, 0, 0}});
+    EXPECT_DOUBLE_EQ(color_seen(scene, {0.25, 9, 0}, down).b, 0.0625);
+}
+
+TEST(Optics, CountsRefractedAndMirroredRays) {
+    Scene scene = floor_scene(diffuse(0.5, 0));
+    scene.materials.push_back(glass(1.5));
+    scene.add(Bare<Box<double>>{{{-9, 2, -9}, {9, 3, 9}}, {1, {1, 1}}});
+    RayCounts counts;
+    RenderSettings settings;
+    settings.depth = 2;
+    radiance(scene, settings, counts, {{0, 5, 0}, down});
+    EXPECT_EQ(counts.refracted, 2U);
+    EXPECT_EQ(counts.reflected, 2U);
+}
+
 } // namespace

@@ -161,11 +161,12 @@ struct Solid {
 
     Surface<R> surface(const Ray<R>& ray, const Hit<R>& hit) const {
         Surface<R> result;
-        for_each_primitive(scene, hit, true, [&](const auto& primitive, bool here, bool inverted) {
-            Vec3<R> object_point;
-            result = surface_of(scene, primitive, ray, hit.shape, here, object_point);
-            result = inverted ? turned_over(result) : result;
-        });
+        for_each_primitive(scene, hit, true,
+                           [&](const auto& primitive, bool here, bool inverted, std::uint32_t) {
+                               Vec3<R> object_point;
+                               result = surface_of(scene, primitive, ray, hit.shape, here, object_point);
+                               result = inverted ? turned_over(result) : result;
+                           });
         return result;
     }
 
