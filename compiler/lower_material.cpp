@@ -24,8 +24,8 @@ runtime::Sides MaterialTable::sides(const Thing* material, const std::string& ow
     return {both, both};
 }
 
-std::uint32_t MaterialTable::index(const Thing* phong, const std::string& owner) {
-    if (const auto found = known_.find(phong); found != known_.end()) {
+std::uint32_t MaterialTable::index(const Thing* given, const std::string& owner) {
+    if (const auto found = known_.find(given); found != known_.end()) {
         return found->second;
     }
     static const Thing default_material{.constructor = scene_schema().find("phong"),
@@ -34,31 +34,68 @@ std::uint32_t MaterialTable::index(const Thing* phong, const std::string& owner)
                                         .name = "default",
                                         .span = {},
                                         .rows = nullptr};
-    const Thing& thing = phong != nullptr ? *phong : default_material;
+    const Thing& thing = given != nullptr ? *given : default_material;
     ir::Material material;
     material.span = thing.span;
     material.name = unique_name(thing.name.empty() ? owner : thing.name);
     material.phong = lowered(thing, material.name, rec709_);
-    warn_if_bright(thing, "diffuse", material.phong.diffuse);
-    warn_if_bright(thing, "reflect", material.phong.reflect);
+    if (material.phong.fresnel) {
+        warn_if_bright(thing, "tint", material.phong.transmit);
+    } else {
+        warn_if_bright(thing, "diffuse", material.phong.diffuse);
+        warn_if_bright(thing, "reflect", material.phong.reflect);
+        warn_if_bright(thing, "transmit", material.phong.transmit);
+    }
+    warn_of_idle_ior(thing, material.phong);
 
     const auto id = static_cast<std::uint32_t>(scene_.materials.size());
     scene_.materials.push_back(std::move(material));
-    known_.emplace(phong, id);
+    known_.emplace(given, id);
     things_.push_back(&thing);
     return id;
 }
 
-runtime::Phong<double> MaterialTable::lowered(const Thing& thing, const std::string& owner,
+runtime::Phong<double> MaterialTable::lowered(const Thing& material, const std::string& owner,
                                               const Rendition& by) {
+    return material.constructor->name == "glass" ? lowered_glass(material, owner, by)
+                                                 : lowered_phong(material, owner, by);
+}
+
+runtime::Phong<double> MaterialTable::lowered_phong(const Thing& thing, const std::string& owner,
+                                                    const Rendition& by) {
+    const Opacity opacity = opacity_of(thing);
+    const Treatment dimmed{&by, ColorRole::surface, Covering::dims, opacity};
     runtime::Phong<double> phong;
-    phong.diffuse = color(thing, "diffuse", owner, by);
-    phong.ambient = thing.find("ambient") != nullptr ? color(thing, "ambient", owner, by) : phong.diffuse;
-    phong.specular = color(thing, "specular", owner, by);
-    phong.emission = color(thing, "emission", owner, by);
-    phong.reflect = color(thing, "reflect", owner, by);
+    phong.diffuse = color(thing, "diffuse", owner, dimmed);
+    phong.ambient = thing.find("ambient") != nullptr ? color(thing, "ambient", owner, dimmed) : phong.diffuse;
+    phong.specular = color(thing, "specular", owner, dimmed);
+    phong.emission = color(thing, "emission", owner, {&by, ColorRole::light, Covering::dims, opacity});
+    phong.reflect = color(thing, "reflect", owner, {&by});
+    phong.transmit =
+        color(thing, "transmit", owner, {&by, ColorRole::surface, Covering::leaves_open, opacity});
     phong.shininess = scalar(thing, "shininess", owner);
+    phong.ior = to_number(*thing.get("ior"));
     return phong;
+}
+
+runtime::Phong<double> MaterialTable::lowered_glass(const Thing& thing, const std::string& owner,
+                                                    const Rendition& by) {
+    runtime::Phong<double> phong;
+    phong.specular = color(thing, "specular", owner, {&by});
+    phong.reflect.value = {1, 1, 1};
+    phong.transmit = color(thing, "tint", owner, {&by});
+    phong.shininess = scalar(thing, "shininess", owner);
+    phong.ior = to_number(*thing.get("ior"));
+    phong.fresnel = true;
+    return phong;
+}
+
+MaterialTable::Opacity MaterialTable::opacity_of(const Thing& phong) {
+    const lang::Value& value = *phong.get("opacity");
+    if (const auto* closure = std::get_if<lang::ClosurePtr>(&value.v)) {
+        return {1, *closure};
+    }
+    return {to_number(value), nullptr};
 }
 
 void MaterialTable::add_bands(const std::vector<Rendition>& bands) {
@@ -78,12 +115,12 @@ std::string MaterialTable::unique_name(const std::string& wanted) {
     return name;
 }
 
-Varying<Rgb<double>> MaterialTable::color(const Thing& phong, std::string_view field,
-                                          const std::string& owner, const Rendition& by) {
-    const lang::Value& value = *phong.get(field);
-    const ColorRole role = field == "emission" ? ColorRole::light : ColorRole::surface;
+Varying<Rgb<double>> MaterialTable::color(const Thing& material, std::string_view field,
+                                          const std::string& owner, Treatment treatment) {
+    const lang::Value& value = *material.get(field);
+    const std::string name = fmt::format("{} {}", owner, field);
     if (const auto* closure = std::get_if<lang::ClosurePtr>(&value.v)) {
-        const auto [id, constants] = function(*closure, fmt::format("{} {}", owner, field), by, role);
+        const auto [id, constants] = function(*closure, name, treatment);
         Varying<Rgb<double>> result{{}, id};
         if (constants.size() == 3) {
             result.value = {constants[0], constants[1], constants[2]};
@@ -91,14 +128,34 @@ Varying<Rgb<double>> MaterialTable::color(const Thing& phong, std::string_view f
         return result;
     }
     has_spectra_ = has_spectra_ || lang::has_spectra(value);
-    return {by.rendered(value, role)};
+    const Rgb<double> constant = treatment.rendition->rendered(value, treatment.role);
+    return treatment.covering == Covering::none ? Varying<Rgb<double>>{constant}
+                                                : covered(constant, name, treatment);
+}
+
+Varying<Rgb<double>> MaterialTable::covered(const Rgb<double>& color, const std::string& name,
+                                            const Treatment& treatment) {
+    // What is black without its covering stays so, whatever that is.
+    const bool stays = treatment.covering == Covering::dims && color == Rgb<double>{};
+    const lang::ClosurePtr& varying = treatment.opacity.function;
+    Traced* source = varying && !stays ? &traced(varying) : nullptr;
+    lang::ScalarMath math(source != nullptr ? &source->builder : nullptr);
+    const lang::Scalar opacity =
+        source != nullptr ? opacity_in(*source, treatment.opacity) : lang::Scalar{treatment.opacity.value};
+    std::vector<lang::Scalar> results;
+    for (const double channel : {color.r, color.g, color.b}) {
+        results.push_back(cover(math, {channel}, opacity, treatment.covering));
+    }
+    if (opacity.is_constant()) {
+        return {{results[0].value, results[1].value, results[2].value}};
+    }
+    return {{}, add_function(source->builder.finish(results), name, treatment)};
 }
 
 Varying<double> MaterialTable::scalar(const Thing& phong, std::string_view field, const std::string& owner) {
     const lang::Value& value = *phong.get(field);
     if (const auto* closure = std::get_if<lang::ClosurePtr>(&value.v)) {
-        const auto [id, constants] =
-            function(*closure, fmt::format("{} {}", owner, field), rec709_, ColorRole::surface);
+        const auto [id, constants] = function(*closure, fmt::format("{} {}", owner, field), {&rec709_});
         return {constants.size() == 1 ? constants[0] : 0, id};
     }
     return {to_number(value)};
@@ -116,33 +173,89 @@ MaterialTable::Traced& MaterialTable::traced(const lang::ClosurePtr& closure) {
 
 std::pair<std::int32_t, std::vector<double>> MaterialTable::function(const lang::ClosurePtr& closure,
                                                                      const std::string& name,
-                                                                     const Rendition& by, ColorRole role) {
+                                                                     const Treatment& treatment) {
     Traced& source = traced(closure);
-    const auto [found, is_new] =
-        source.lowered.try_emplace({&by, role}, runtime::no_function, std::vector<double>{});
+    const Opacity& opacity = treatment.opacity;
+    const auto [found, is_new] = source.lowered.try_emplace(
+        {treatment.rendition, treatment.role, treatment.covering, opacity.value, opacity.function.get()},
+        runtime::no_function, std::vector<double>{});
     auto& [index, constants] = found->second;
     if (!is_new) {
         return found->second;
     }
-    const lang::Components& parts = source.result;
-    std::vector<lang::Scalar> results(parts.v.begin(), parts.v.begin() + parts.count);
-    if (parts.kind == lang::TypeKind::color) {
-        lang::ScalarMath math(&source.builder);
-        const auto rendered = by.rendered(math, parts, role);
-        results.assign(rendered.begin(), rendered.end());
-    }
+    const std::vector<lang::Scalar> results = treated(source, treatment);
     if (std::all_of(results.begin(), results.end(), [](const lang::Scalar& s) { return s.is_constant(); })) {
         for (const lang::Scalar& scalar : results) {
             constants.push_back(scalar.value);
         }
         return found->second;
     }
-    ir::Function function = source.builder.finish(results);
-    function.name = lang::name_of(*closure).empty() ? name : lang::name_of(*closure);
-    function.name += by.name().empty() ? "" : ", " + by.name();
-    index = static_cast<std::int32_t>(scene_.functions.size());
-    scene_.functions.push_back(std::move(function));
+    const std::string own_name(lang::name_of(*closure));
+    index = add_function(source.builder.finish(results), own_name.empty() ? name : own_name, treatment);
     return found->second;
+}
+
+std::vector<lang::Scalar> MaterialTable::treated(Traced& source, const Treatment& treatment) {
+    const lang::Components& parts = source.result;
+    std::vector<lang::Scalar> results(parts.v.begin(), parts.v.begin() + parts.count);
+    lang::ScalarMath math(&source.builder);
+    if (parts.kind == lang::TypeKind::color) {
+        const auto rendered = treatment.rendition->rendered(math, parts, treatment.role);
+        results.assign(rendered.begin(), rendered.end());
+    }
+    if (treatment.covering != Covering::none) {
+        const lang::Scalar opacity = opacity_in(source, treatment.opacity);
+        for (lang::Scalar& scalar : results) {
+            scalar = cover(math, scalar, opacity, treatment.covering);
+        }
+    }
+    return results;
+}
+
+lang::Scalar MaterialTable::cover(lang::ScalarMath& math, const lang::Scalar& value,
+                                  const lang::Scalar& opacity, Covering covering) {
+    using lang::ScalarOp;
+    if (opacity.is_constant() && opacity.value == 1) {
+        return value;
+    }
+    return covering == Covering::dims
+               ? math.apply(ScalarOp::mul, value, opacity)
+               : math.apply(ScalarOp::add, value, math.apply(ScalarOp::sub, lang::Scalar{1}, opacity));
+}
+
+/// Within 0 and 1, what a field's limits ask of a number.
+lang::Scalar MaterialTable::opacity_in(Traced& source, const Opacity& opacity) {
+    if (!opacity.function) {
+        return {opacity.value};
+    }
+    const auto [found, is_new] = source.opacities.try_emplace(opacity.function.get());
+    if (is_new) {
+        // What is wrong with it is said where it is traced by itself.
+        traced(opacity.function);
+        lang::Diagnostics repeated;
+        const lang::Components parts = lang::trace(opacity.function, source.builder, repeated);
+        lang::ScalarMath math(&source.builder);
+        found->second =
+            math.apply(lang::ScalarOp::min, math.apply(lang::ScalarOp::max, parts.v[0], lang::Scalar{0}),
+                       lang::Scalar{1});
+    }
+    return found->second;
+}
+
+std::int32_t MaterialTable::add_function(ir::Function function, const std::string& name,
+                                         const Treatment& treatment) {
+    const std::string& rendition = treatment.rendition->name();
+    function.name = name + (rendition.empty() ? "" : ", " + rendition);
+    scene_.functions.push_back(std::move(function));
+    return static_cast<std::int32_t>(scene_.functions.size() - 1);
+}
+
+void MaterialTable::warn_of_idle_ior(const Thing& thing, const runtime::Phong<double>& phong) {
+    const bool opaque =
+        phong.transmit.function == runtime::no_function && phong.transmit.value == Rgb<double>{};
+    if (thing.find("ior") != nullptr && opaque && phong.ior != 1) {
+        diagnostics_.report(lang::Diag::idle_ior, place_of(thing, "ior"));
+    }
 }
 
 void MaterialTable::warn_if_bright(const Thing& phong, std::string_view field,

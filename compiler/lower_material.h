@@ -13,6 +13,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -38,25 +39,55 @@ public:
     void add_bands(const std::vector<Rendition>& bands);
 
 private:
-    /// A per-point function, and what became of it by the rendition of its colours.
+    /// A material's alpha: a number, or a function of the point.
+    struct Opacity {
+        double value = 1;
+        lang::ClosurePtr function;
+    };
+    /// What it does to a field.
+    enum class Covering { none, dims, leaves_open };
+    /// How a field's value becomes three numbers, or one.
+    struct Treatment {
+        const Rendition* rendition;
+        ColorRole role = ColorRole::surface;
+        Covering covering = Covering::none;
+        Opacity opacity{};
+    };
+    using Key = std::tuple<const Rendition*, ColorRole, Covering, double, const lang::Closure*>;
+    /// A per-point function, and what became of it by the treatment of its results.
     struct Traced {
         FunctionBuilder builder;
         lang::Components result;
-        std::map<std::pair<const Rendition*, ColorRole>, std::pair<std::int32_t, std::vector<double>>>
-            lowered;
+        std::map<const lang::Closure*, lang::Scalar> opacities; ///< in the same builder
+        std::map<Key, std::pair<std::int32_t, std::vector<double>>> lowered;
     };
 
-    std::uint32_t index(const lang::Thing* phong, const std::string& owner);
+    std::uint32_t index(const lang::Thing* material, const std::string& owner);
     std::string unique_name(const std::string& wanted);
-    runtime::Phong<double> lowered(const lang::Thing& phong, const std::string& owner, const Rendition& by);
-    runtime::Varying<runtime::Rgb<double>> color(const lang::Thing& phong, std::string_view field,
-                                                 const std::string& owner, const Rendition& by);
+    runtime::Phong<double> lowered(const lang::Thing& material, const std::string& owner,
+                                   const Rendition& by);
+    runtime::Phong<double> lowered_phong(const lang::Thing& phong, const std::string& owner,
+                                         const Rendition& by);
+    runtime::Phong<double> lowered_glass(const lang::Thing& glass, const std::string& owner,
+                                         const Rendition& by);
+    static Opacity opacity_of(const lang::Thing& phong);
+    runtime::Varying<runtime::Rgb<double>> color(const lang::Thing& material, std::string_view field,
+                                                 const std::string& owner, Treatment treatment);
     runtime::Varying<double> scalar(const lang::Thing& phong, std::string_view field,
                                     const std::string& owner);
     /// The function's index, or no_function with its constant values.
     std::pair<std::int32_t, std::vector<double>>
-    function(const lang::ClosurePtr& closure, const std::string& name, const Rendition& by, ColorRole role);
+    function(const lang::ClosurePtr& closure, const std::string& name, const Treatment& treatment);
+    /// Of a constant colour that an opacity makes vary.
+    runtime::Varying<runtime::Rgb<double>> covered(const runtime::Rgb<double>& color, const std::string& name,
+                                                   const Treatment& treatment);
+    std::vector<lang::Scalar> treated(Traced& traced, const Treatment& treatment);
+    static lang::Scalar cover(lang::ScalarMath& math, const lang::Scalar& value, const lang::Scalar& opacity,
+                              Covering covering);
+    lang::Scalar opacity_in(Traced& traced, const Opacity& opacity);
+    std::int32_t add_function(ir::Function function, const std::string& name, const Treatment& treatment);
     Traced& traced(const lang::ClosurePtr& closure);
+    void warn_of_idle_ior(const lang::Thing& thing, const runtime::Phong<double>& phong);
     void warn_if_bright(const lang::Thing& phong, std::string_view field,
                         const runtime::Varying<runtime::Rgb<double>>& value);
 

@@ -236,7 +236,10 @@ const std::map<std::string_view, std::string_view>& examples() {
          "sphere { material = phong { diffuse = rgb(0.2, 0.4, 0.8), specular = rgb(0.5, 0.5, 0.5), "
          "shininess = 60 } }\n"
          "sphere { material = phong { diffuse = fn(s: surface) = rgb(0.5 + 0.4 * sin(9 * s.p.x), 0.2, "
-         "0.2) } }"},
+         "0.2) } }\n"
+         "disc { material = phong { diffuse = rgb(0.1, 0.6, 0.1), opacity = 0.5 } }\n"
+         "box { material = phong { diffuse = rgb(0, 0, 0), transmit = rgb(0.9, 0.6, 0.6), ior = 1.5 } }"},
+        {"glass", "sphere { material = glass { ior = 1.33, tint = rgb(0.9, 0.95, 1) } }"},
         {"two_sided", "let mirror = phong { diffuse = rgb(0.1, 0.1, 0.1), reflect = rgb(0.8, 0.8, 0.8) }\n"
                       "disc { material = two_sided { front = mirror, back = phong { } } }"},
         {"point_light", "point_light { position = (4, 6, 3), attenuation = (1, 0.05, 0.01) }"},

@@ -53,6 +53,7 @@ Limits at_least(double min, std::string_view rule) {
     return {.min = min, .rule = rule};
 }
 const Limits non_negative = at_least(0, "it is at least 0");
+const Limits refractive = positive("an index of refraction is greater than 0");
 
 Limits limits_of(runtime::Rule rule) {
     switch (rule) {
@@ -212,11 +213,47 @@ Constructor phong() {
                         .doc = "exponent of the highlight"},
                        color("emission", grey(0), "light that the surface gives off", true),
                        color("reflect", grey(0), "of the mirrored ray", true),
-                       unsupported("transmit", TypeKind::color),
-                       unsupported("ior", TypeKind::number),
-                       unsupported("opacity", TypeKind::number),
+                       color("transmit", grey(0),
+                             "of what is seen through the surface; each surface on the way to a light "
+                             "dims it so, and the shadow of coloured glass is coloured",
+                             true),
+                       {.name = "ior",
+                        .type = TypeKind::number,
+                        .default_value = number(1),
+                        .limits = refractive,
+                        .doc = "index of refraction of what the surface encloses: where it differs from that "
+                               "of what is around it, rays bend and take a bounce, and are mirrored beyond "
+                               "the critical angle; else they go straight on and take none. Feelers to "
+                               "lights do not bend"},
+                       {.name = "opacity",
+                        .type = TypeKind::number,
+                        .default_value = number(1),
+                        .per_point = true,
+                        .limits = {.min = 0, .max = 1, .rule = "it lies between 0 and 1"},
+                        .doc = "alpha, by which ambient, diffuse, specular and emission are multiplied; "
+                               "1 - opacity is added to transmit"},
                        unsupported("bump", Type::function({TypeKind::surface}, TypeKind::number))},
             .doc = "Phong illumination with the halfway vector"};
+}
+
+Constructor glass() {
+    return {.name = "glass",
+            .type = TypeKind::material,
+            .fields = {{.name = "ior",
+                        .type = TypeKind::number,
+                        .default_value = number(1.5),
+                        .limits = refractive,
+                        .doc = "index of refraction of what the surface encloses"},
+                       color("tint", grey(1), "of what is seen through the surface; of shadows too", true),
+                       color("specular", grey(0), "of the highlight", true),
+                       {.name = "shininess",
+                        .type = TypeKind::number,
+                        .default_value = number(32),
+                        .per_point = true,
+                        .limits = non_negative,
+                        .doc = "exponent of the highlight"}},
+            .doc = "mirrors by the reflectance F of Fresnel's equations, and shows what is behind it times "
+                   "(1 - F) tint"};
 }
 
 Constructor two_sided() {
@@ -402,7 +439,7 @@ Constructor ray() {
                                    .max = 200,
                                    .integer = true,
                                    .rule = "a depth is a whole number from 0 to 200"},
-                        .doc = "mirror bounces; 0: none"},
+                        .doc = "mirrors and refractions one after the other; 0: none"},
                        samples(),
                        {.name = "shadows",
                         .type = TypeKind::boolean,
@@ -452,7 +489,6 @@ void add_unsupported(std::vector<Constructor>& rows) {
         {"spot_light", TypeKind::light},
         {"rectangle_light", TypeKind::light},
         {"sky_light", TypeKind::light},
-        {"glass", TypeKind::material},
         {"pbr", TypeKind::material},
         {"image", TypeKind::image},
     };
@@ -492,7 +528,7 @@ lang::Schema make_schema() {
     lang::Schema schema;
     add_shapes(schema.constructors, runtime::Shapes<double>{});
     for (auto make :
-         {mesh, implicit, group, unite, intersection, difference, phong, two_sided, point_light,
+         {mesh, implicit, group, unite, intersection, difference, phong, glass, two_sided, point_light,
           directional_light, perspective_camera, orthographic_camera, world, render, ray, raster}) {
         schema.constructors.push_back(make());
     }

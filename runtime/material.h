@@ -35,6 +35,16 @@ struct Phong {
     friend constexpr bool operator==(const Phong&, const Phong&) = default;
 };
 
+template <class R>
+constexpr bool lets_through(const Phong<R>& p) {
+    return p.transmit.function != no_function || !(p.transmit.value == Rgb<R>{});
+}
+/// Whether rays may bend at it, or be mirrored by Fresnel's equations.
+template <class R>
+constexpr bool refracts(const Phong<R>& p) {
+    return lets_through(p) && (p.ior != 1 || p.fresnel);
+}
+
 /// Indices into the scene's materials. Front: the side that the geometric normal points to.
 struct Sides {
     std::uint32_t front = 0;

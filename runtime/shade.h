@@ -82,7 +82,7 @@ public:
         if constexpr (S::traits.transmission) {
             for (const Phong<R>& material : scene.materials) {
                 transmits_ = transmits_ || lets_through(material);
-                refracts_ = refracts_ || (lets_through(material) && (material.ior != 1 || material.fresnel));
+                refracts_ = refracts_ || refracts(material);
             }
         }
         if constexpr (S::traits.shadows && !has_hierarchy<S>) {
@@ -164,8 +164,10 @@ private:
         Encounter<L> at;
         Reflectances<L> material;
         Rgb<L> light; ///< that leaves the encounter towards the ray's origin, but for mirrors
-        L bounces;    ///< each ray's own, only with transmission
+        // Only with transmission:
+        L bounces; ///< each ray's own
         IndexOf<L> media;
+        Rgb<L> filter; ///< what transparent surfaces leave of the light in question
     };
     /// A mirrored ray that waits until what is seen through its surface is done.
     struct Branch {
@@ -291,10 +293,6 @@ private:
                 put(first, here, L(truth(material.fresnel)), result.fresnel);
             }
         });
-    }
-
-    static bool lets_through(const Phong<R>& material) {
-        return material.transmit.function != no_function || !(material.transmit.value == Rgb<R>{});
     }
 
     void start(Packs& packs, const std::array<Ray<L>, N>& rays) {
@@ -533,7 +531,6 @@ private:
         std::array<LightAt<L>, N> seen;
         std::array<L, N> cosine;
         std::array<Mask, N> lit;
-        Filters filters;
         bool any_lit = false;
         for (std::size_t i = 0; i < packs.count; ++i) {
             lit[i] = packs[i].active;
@@ -548,24 +545,17 @@ private:
         if (!any_lit) {
             return;
         }
-        take_shadowed(light, index, packs, lit, filters);
+        take_shadowed(light, index, packs, lit);
         for (std::size_t i = 0; i < packs.count; ++i) {
             if (any(lit[i])) {
-                add(light, packs[i], rays[i].dir, seen[i], cosine[i], lit[i], filters.list[i]);
+                add(light, packs[i], rays[i].dir, seen[i], cosine[i], lit[i]);
             }
         }
     }
-    /// What transparent surfaces leave of a light; without values where the scene has none.
-    struct Filters {
-        Filters() {}
-        union {
-            std::array<Rgb<L>, N> list;
-        };
-    };
 
     template <class Light>
     void add(const Light& light, Pack& pack, const Vec3<L>& dir, const LightAt<L>& seen, const L& cosine,
-             const Mask& lit, [[maybe_unused]] const Rgb<L>& filter) const {
+             const Mask& lit) const {
         const Reflectances<L>& material = pack.material;
         Rgb<L> reflected = lanes<L>(light.diffuse) * material.diffuse * cosine;
         if constexpr (S::traits.specular) {
@@ -583,7 +573,7 @@ private:
             }
         }
         if constexpr (S::traits.transmission && S::traits.shadows) {
-            reflected = reflected * filter;
+            reflected = reflected * pack.filter;
         }
         pack.light = choose(lit, pack.light + reflected, pack.light);
     }
@@ -591,18 +581,20 @@ private:
     /// L14: feelers that start off the surfaces, for the lit lanes. They go straight through transparent
     /// surfaces.
     template <class Light>
-    void take_shadowed(const Light& light, [[maybe_unused]] std::size_t index, const Packs& packs,
-                       std::array<Mask, N>& lit, [[maybe_unused]] Filters& filters) const {
+    void take_shadowed(const Light& light, [[maybe_unused]] std::size_t index, Packs& packs,
+                       std::array<Mask, N>& lit) const {
         if constexpr (S::traits.shadows) {
             if constexpr (S::traits.transmission) {
-                filters.list.fill({L(1), L(1), L(1)});
+                for (Pack& pack : packs.list) {
+                    pack.filter = {L(1), L(1), L(1)};
+                }
             }
             if (!shadows_) {
                 return;
             }
             if constexpr (S::traits.transmission) {
                 if (transmits_) {
-                    filter(light, index, packs, lit, filters.list);
+                    filter(light, index, packs, lit);
                     return;
                 }
             }
@@ -629,8 +621,8 @@ private:
     }
     /// Multiplies by what each surface on the way to the light lets through.
     template <class Light>
-    void filter(const Light& light, [[maybe_unused]] std::size_t index, const Packs& packs,
-                std::array<Mask, N>& lit, std::array<Rgb<L>, N>& filters) const {
+    void filter(const Light& light, [[maybe_unused]] std::size_t index, Packs& packs,
+                std::array<Mask, N>& lit) const {
         std::array<Ray<L>, N> rays;
         std::array<Mask, N> open = lit;
         for (std::size_t i = 0; i < packs.count; ++i) {
@@ -654,8 +646,8 @@ private:
             for (std::size_t i = 0; i < packs.count; ++i) {
                 open[i] = open[i] & (hits[i].kind != IndexOf<L>(no_kind));
                 if (any(open[i])) {
-                    pass(light, rays[i], hits[i], open[i], filters[i]);
-                    lit[i] = lit[i] & !is_black(filters[i]);
+                    pass(light, rays[i], hits[i], open[i], packs[i].filter);
+                    lit[i] = lit[i] & !is_black(packs[i].filter);
                     open[i] = open[i] & lit[i];
                     goes_on = goes_on || any(open[i]);
                 }

@@ -20,9 +20,9 @@ constexpr int most_bounces = 1024;
 // A bounce that can add no more than this share is left out.
 constexpr double least_share = 1e-8;
 
-std::array<std::int32_t, 6> functions_of(const Phong<double>& p) {
-    return {p.ambient.function,  p.diffuse.function, p.specular.function,
-            p.emission.function, p.reflect.function, p.shininess.function};
+std::array<std::int32_t, 7> functions_of(const Phong<double>& p) {
+    return {p.ambient.function, p.diffuse.function,  p.specular.function, p.emission.function,
+            p.reflect.function, p.transmit.function, p.shininess.function};
 }
 
 template <class Wanted>

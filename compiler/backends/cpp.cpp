@@ -72,8 +72,9 @@ std::string literal(const Affine<R>& a) {
 }
 template <class R>
 std::string literal(const runtime::Phong<R>& p) {
-    return fmt::format("{{{}, {}, {}, {}, {}, {}}}", literal(p.ambient), literal(p.diffuse),
-                       literal(p.specular), literal(p.emission), literal(p.reflect), literal(p.shininess));
+    return fmt::format("{{{}, {}, {}, {}, {}, {}, {}, {}, {}}}", literal(p.ambient), literal(p.diffuse),
+                       literal(p.specular), literal(p.emission), literal(p.reflect), literal(p.transmit),
+                       literal(p.shininess), literal(p.ior), literal(p.fresnel));
 }
 template <class R>
 std::string literal(const runtime::PointLight<R>& l) {
@@ -134,7 +135,7 @@ std::string literal(const Placed<Shape, R>& primitive) {
 
 template <class Primitive>
 std::string literal(const runtime::Member<Primitive>& member) {
-    return fmt::format("{{{}, {}}}", literal(member.primitive), literal(member.inverted));
+    return fmt::format("{{{}, {}, {}}}", literal(member.primitive), literal(member.inverted), member.solid);
 }
 std::string literal(const runtime::CsgNode& node) {
     static constexpr const char* ops[] = {"member", "unite", "intersect", "subtract"};

@@ -15,9 +15,9 @@ using runtime::Affine;
 
 namespace {
 
-std::array<std::int32_t, 6> functions_of(const runtime::Phong<double>& phong) {
-    return {phong.ambient.function,  phong.diffuse.function, phong.specular.function,
-            phong.emission.function, phong.reflect.function, phong.shininess.function};
+std::array<std::int32_t, 7> functions_of(const runtime::Phong<double>& phong) {
+    return {phong.ambient.function, phong.diffuse.function,  phong.specular.function, phong.emission.function,
+            phong.reflect.function, phong.transmit.function, phong.shininess.function};
 }
 
 /// Reflectances and emissions are colours that one can see; exponents grow further.

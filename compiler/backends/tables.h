@@ -44,8 +44,9 @@ auto convert(const runtime::Varying<T>& v, R real) -> runtime::Varying<decltype(
 
 template <class R>
 runtime::Phong<R> convert(const runtime::Phong<double>& p, R real) {
-    return {convert(p.ambient, real),  convert(p.diffuse, real), convert(p.specular, real),
-            convert(p.emission, real), convert(p.reflect, real), convert(p.shininess, real)};
+    return {convert(p.ambient, real),   convert(p.diffuse, real), convert(p.specular, real),
+            convert(p.emission, real),  convert(p.reflect, real), convert(p.transmit, real),
+            convert(p.shininess, real), convert(p.ior, real),     p.fresnel};
 }
 template <class R>
 runtime::PointLight<R> convert(const runtime::PointLight<double>& l, R real) {
@@ -120,7 +121,7 @@ void visit_primitive(const Source& source, const runtime::Affine<double>& place,
 /// their ids.
 template <class R, class Visit>
 void for_each_primitive(const ir::Scene& scene, Visit visit) {
-    std::uint32_t id = 0;
+    std::uint32_t id = 0, solid = 0;
     const auto visit_member = [&](const ir::CsgNode& node) {
         if (node.op != runtime::CsgOp::member) {
             return;
@@ -130,14 +131,15 @@ void for_each_primitive(const ir::Scene& scene, Visit visit) {
             [&](const auto& source) {
                 visit_primitive<R>(source, member.world_from_object, {id++, member.sides},
                                    [&]<class Primitive>(const Primitive& primitive) {
-                                       visit(runtime::Member<Primitive>{primitive, node.inverted});
+                                       visit(runtime::Member<Primitive>{primitive, node.inverted, solid});
                                    });
             },
             member.shape);
     };
     ir::for_each_shape(
         scene, [&](const auto& source, const runtime::Affine<double>& place, const runtime::Sides& sides) {
-            visit_primitive<R>(source, place, {id++, sides}, visit);
+            solid = id++;
+            visit_primitive<R>(source, place, {solid, sides}, visit);
             if constexpr (requires { source.root; }) {
                 ir::for_each_csg_node(scene, source, visit_member);
             }

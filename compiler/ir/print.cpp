@@ -88,6 +88,9 @@ void print_phong(Writer& out, const runtime::Phong<double>& p, const Scene& scen
         out.line("{} = {}", field, text(*value, scene));
     }
     out.line("shininess = {}", text(p.shininess, scene));
+    if (lets_through(p)) {
+        out.line("transmit = {}, ior = {}{}", text(p.transmit, scene), p.ior, p.fresnel ? ", fresnel" : "");
+    }
 }
 
 void print_material(Writer& out, const Material& material, const Scene& scene) {

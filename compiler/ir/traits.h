@@ -25,6 +25,8 @@ inline constexpr auto trait_flags = std::to_array<TraitFlag>({
     {"specular", &runtime::SceneTraits::specular},
     {"emission", &runtime::SceneTraits::emission},
     {"reflection", &runtime::SceneTraits::reflection},
+    {"transmission", &runtime::SceneTraits::transmission},
+    {"refraction", &runtime::SceneTraits::refraction},
     {"two_sided", &runtime::SceneTraits::two_sided},
     {"functions", &runtime::SceneTraits::functions},
     {"smooth_normals", &runtime::SceneTraits::smooth_normals},

@@ -50,8 +50,11 @@ void need(SceneTraits& traits, const runtime::Phong<double>& p, int depth) {
     traits.specular |= is_present(p.specular);
     traits.emission |= is_present(p.emission);
     traits.reflection |= depth > 0 && is_present(p.reflect);
-    for (const std::int32_t function : {p.ambient.function, p.diffuse.function, p.specular.function,
-                                        p.emission.function, p.reflect.function, p.shininess.function}) {
+    traits.transmission |= lets_through(p);
+    traits.refraction |= refracts(p);
+    for (const std::int32_t function :
+         {p.ambient.function, p.diffuse.function, p.specular.function, p.emission.function,
+          p.reflect.function, p.transmit.function, p.shininess.function}) {
         traits.functions |= function != runtime::no_function;
     }
 }

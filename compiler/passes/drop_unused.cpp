@@ -44,6 +44,7 @@ void for_each_function_index(runtime::Phong<double>& phong, Visit visit) {
     visit(phong.specular.function);
     visit(phong.emission.function);
     visit(phong.reflect.function);
+    visit(phong.transmit.function);
     visit(phong.shininess.function);
 }
 

@@ -128,8 +128,9 @@ bool flatten(runtime::Implicit<double>&, const Affine<double>&) {
 // A function of the object's own coordinates needs them at run time.
 bool reads_object_space(const ir::Scene& scene, std::uint32_t material) {
     const runtime::Phong<double>& p = scene.materials[material].phong;
-    for (const std::int32_t index : {p.ambient.function, p.diffuse.function, p.specular.function,
-                                     p.emission.function, p.reflect.function, p.shininess.function}) {
+    for (const std::int32_t index :
+         {p.ambient.function, p.diffuse.function, p.specular.function, p.emission.function,
+          p.reflect.function, p.transmit.function, p.shininess.function}) {
         if (index >= 0 &&
             scene.functions[static_cast<std::size_t>(index)].reads(ir::Input::p_x, ir::Input::p_z)) {
             return true;
