@@ -158,12 +158,36 @@ void check_distance(const ir::Scene& scene, lang::Diagnostics& diagnostics) {
     }
 }
 
+/// One index of refraction per body.
+void check_bodies(const ir::Scene& scene, lang::Diagnostics& diagnostics) {
+    if (std::none_of(scene.materials.begin(), scene.materials.end(),
+                     [](const ir::Material& m) { return refracts(m.phong); })) {
+        return;
+    }
+    const auto check = [&](const ir::Object& object) {
+        const std::vector<double> iors = ir::iors_of(scene, object);
+        if (iors.size() > 1) {
+            diagnostics.report(Diag::several_iors, object.span, object.path, iors[0], iors[1]);
+        }
+    };
+    ir::for_each_piece(scene, check, [&](const ir::ObjectArray& array) {
+        for (const ir::ObjectColumn& column : array.columns) {
+            for (std::size_t round = 0; round < column.sides.size(); ++round) {
+                if (column.sides[round].front != column.sides[round].back) {
+                    check(ir::object_of(column, round));
+                }
+            }
+        }
+    });
+}
+
 } // namespace
 
 void check_scene(const lang::Module& module, const ir::Scene& scene, lang::Diagnostics& diagnostics) {
     check_depth(module, scene, diagnostics);
     check_distance(scene, diagnostics);
     check_coincident_faces(scene, diagnostics);
+    check_bodies(scene, diagnostics);
 }
 
 } // namespace scc::compiler

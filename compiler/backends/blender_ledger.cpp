@@ -87,7 +87,7 @@ private:
     }
 
     bool reflects(std::uint32_t material) const {
-        return needs_.bounces > 0 && is_present(scene_.materials[material].phong.reflect);
+        return needs_.bounces > 0 && has_mirror(scene_.materials[material].phong);
     }
 
     void record(const ir::Object& object) {
@@ -119,9 +119,14 @@ private:
         const Phong<double>& p = material.phong;
         add({Fidelity::exact, "the formula in nodes, one view layer per light"}, "phong", material.name,
             material.span);
-        if (needs_.bounces > 0 && is_present(p.reflect)) {
+        if (needs_.bounces > 0 && has_mirror(p)) {
             add({Fidelity::exact, "one view layer per number of bounces"}, "reflect", material.name,
                 material.span);
+        }
+        if (lets_through(p)) {
+            add({Fidelity::dropped,
+                 "nothing is seen through surfaces in Blender, and their shadows are black"},
+                p.fresnel ? "glass" : "transparency", material.name, material.span);
         }
         record_function(p.ambient.function, "ambient", material);
         record_function(p.diffuse.function, "diffuse", material);

@@ -20,9 +20,9 @@ constexpr int most_bounces = 1024;
 // A bounce that can add no more than this share is left out.
 constexpr double least_share = 1e-8;
 
-std::array<std::int32_t, 7> functions_of(const Phong<double>& p) {
-    return {p.ambient.function, p.diffuse.function,  p.specular.function, p.emission.function,
-            p.reflect.function, p.transmit.function, p.shininess.function};
+std::array<std::int32_t, 6> functions_of(const Phong<double>& p) {
+    return {p.ambient.function,  p.diffuse.function, p.specular.function,
+            p.emission.function, p.reflect.function, p.shininess.function};
 }
 
 template <class Wanted>
@@ -126,12 +126,11 @@ private:
         sees_itself_ |= (front && view.front) || (back && view.back);
         strongest_ = std::max({strongest_, strength(object.sides.front), strength(object.sides.back)});
     }
-    bool reflects(std::uint32_t material) const {
-        return is_present(scene_.materials[material].phong.reflect);
-    }
+    bool reflects(std::uint32_t material) const { return has_mirror(scene_.materials[material].phong); }
     double strength(std::uint32_t material) const {
         const auto& reflect = scene_.materials[material].phong.reflect;
-        return reflect.function != runtime::no_function
+        return !reflects(material) ? 0
+               : reflect.function != runtime::no_function
                    ? 1
                    : std::max({reflect.value.r, reflect.value.g, reflect.value.b});
     }

@@ -35,6 +35,11 @@ BlenderNeeds blender_needs(const ir::Scene& scene);
 /// Of a material: some channel is not 0, or varies.
 bool is_present(const runtime::Varying<runtime::Rgb<double>>& color);
 
+/// Glass is left out: its mirror image alone would make it one of silver.
+inline bool has_mirror(const runtime::Phong<double>& phong) {
+    return is_present(phong.reflect) && !phong.fresnel;
+}
+
 /// Whether a hit of the shape is shaded with normals interpolated from its corners.
 bool is_smooth(const ir::Shape& shape, const ir::Scene& scene);
 

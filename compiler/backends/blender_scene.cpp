@@ -134,7 +134,7 @@ private:
         if (is_present(phong.emission)) {
             text += ", emission=" + field(phong.emission);
         }
-        if (has("mirror") && is_present(phong.reflect)) {
+        if (has("mirror") && has_mirror(phong)) {
             text += ", reflect=" + field(phong.reflect);
         }
         return text;

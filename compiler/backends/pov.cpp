@@ -188,11 +188,21 @@ private:
         for (std::size_t child = at + 1; child < end; child += scene_.csg_nodes[child].size) {
             emit_solid(child, false);
         }
-        if (whole && !scene_.settings.shadows) {
-            objects_.line("no_shadow");
+        if (whole) {
+            finish_object(ir::index_of_refraction(scene_, *std::get_if<runtime::Csg<double>>(&solid.shape)));
         }
         objects_.dedent();
         objects_.line("}}");
+    }
+
+    /// What concerns an object as a whole.
+    void finish_object(double ior) {
+        if (ior != 1) {
+            objects_.line("interior {{ ior {} }}", number(ior));
+        }
+        if (!scene_.settings.shadows) {
+            objects_.line("no_shadow");
+        }
     }
 
     void emit_shape(const ir::Object& object, bool whole) {
@@ -221,8 +231,8 @@ private:
             objects_.raw_line(moved);
         }
         write_textures(textures, true);
-        if (whole && !scene_.settings.shadows) {
-            objects_.line("no_shadow");
+        if (whole) {
+            finish_object(ir::iors_of(scene_, object));
         }
         objects_.dedent();
         objects_.line("}}");
@@ -332,6 +342,9 @@ private:
         } else {
             note(Fidelity::approximated, kind, object.path, object.span, shape.precision, shape.bound);
         }
+        if (scene_.traits.refraction) {
+            note_refraction(object);
+        }
         if (object.sides.front == object.sides.back) {
             return;
         }
@@ -342,6 +355,15 @@ private:
                  1);
         } else {
             note(Fidelity::exact, "two_sided", object.path, object.span, "interior_texture");
+        }
+    }
+
+    void note_refraction(const ir::Object& object) {
+        const auto refracts_at = [&](std::uint32_t material) {
+            return refracts(scene_.materials[material].phong);
+        };
+        if (refracts_at(object.sides.front) || refracts_at(object.sides.back)) {
+            note(Fidelity::exact, "refraction", object.path, object.span, "interior");
         }
     }
 

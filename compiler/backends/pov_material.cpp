@@ -79,14 +79,21 @@ PovMaterials::Use PovMaterials::declare(std::uint32_t material, const std::strin
     painted.specular = color(phong.specular, "specular", material, world_from_object);
     painted.emission = color(phong.emission, "emission", material, world_from_object);
     painted.reflect = color(phong.reflect, "reflect", material, world_from_object);
+    painted.transmit = color(phong.transmit, "transmit", material, world_from_object);
+    painted.fresnel = phong.fresnel;
     painted.shininess = shininess(phong.shininess, material, world_from_object);
+    if (!has_writable_highlight(painted)) {
+        painted.specular = {};
+        note(material, "phong specular",
+             {Fidelity::dropped, "POV-Ray has no coloured highlight on a surface whose transparency varies"});
+    }
     Outcome varying_shininess;
     Use use{textures_.declare(name, painted, varying_shininess)};
     use.varies = reads(material, ir::Input::p_x, ir::Input::world_z);
     if (varying_shininess.fidelity != Fidelity::exact) {
         note(material, "phong shininess", varying_shininess);
     }
-    note(material, "phong", {Fidelity::exact, "texture", 0});
+    note(material, phong.fresnel ? "glass" : "phong", {Fidelity::exact, "texture", 0});
     noted_[material] = true;
     return use;
 }

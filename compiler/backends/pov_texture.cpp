@@ -143,9 +143,11 @@ std::vector<Body> bodies_of(const PaintedPhong& phong) {
     return bodies;
 }
 
+bool is_grey(const Color& color) {
+    return color.r == color.g && color.g == color.b;
+}
 bool has_equal_channels(const Paint& paint) {
-    return paint.is_constant() && paint.constant.r == paint.constant.g &&
-           paint.constant.g == paint.constant.b;
+    return paint.is_constant() && is_grey(paint.constant);
 }
 
 std::string highlight(double specular, const std::string& roughness) {
@@ -171,27 +173,72 @@ std::string layer_text(const std::string& pigment_text, const std::string& finis
                                : block("texture", {pigment_text, fmt::format("finish {{{} }}", finish_text)});
 }
 
+std::string reflection(const PaintedPhong& phong) {
+    const std::string color = pov_color(phong.reflect.constant);
+    return phong.reflect.is_black() ? ""
+           : phong.fresnel ? fmt::format(" reflection {{ rgb 0 rgb {} fresnel on }} conserve_energy", color)
+                           : fmt::format(" reflection {{ rgb {} }}", color);
+}
+
+/// A highlight's colour, but for channels that nothing could divide by.
+Color filter_of(const Color& specular) {
+    const auto channel = [](double s) { return std::max(s, 1e-7); };
+    return {channel(specular.r), channel(specular.g), channel(specular.b)};
+}
+
+/// What filters the light from behind, with highlights and mirrors that none of the layers above has. It is
+/// `gain` times too bright. A layer that colours the highlight filters that light too, which the bottom makes
+/// up for; and with Fresnel's equations each layer's reflection dims all below it.
+std::vector<std::string> clear_layers(const PaintedPhong& phong, const std::string& roughness, double gain,
+                                      bool is_top) {
+    const std::string mirror = is_top ? reflection(phong) : "";
+    if (has_equal_channels(phong.specular)) {
+        const bool shines = is_top && !phong.specular.is_black();
+        const std::string shine = shines ? highlight(phong.specular.constant.r, roughness) : "";
+        return {layer_text(pigment(phong.transmit, gain, Layer::filter), shine + mirror)};
+    }
+    const Color filter = filter_of(phong.specular.constant);
+    const Color& transmit = phong.transmit.constant;
+    const Paint below{{transmit.r / filter.r, transmit.g / filter.g, transmit.b / filter.b}, {}};
+    const std::string shine = highlight(1, roughness);
+    std::vector<std::string> layers;
+    if (phong.fresnel) {
+        layers.push_back(layer_text(pigment(below, 1, Layer::filter), mirror));
+        layers.push_back(layer_text(pigment(Paint{white, {}}, 1, Layer::filter), shine));
+    } else {
+        layers.push_back(layer_text(pigment(below, 1, Layer::filter), shine + mirror));
+    }
+    layers.push_back(layer_text(pigment(Paint{filter, {}}, gain, Layer::filter), ""));
+    return layers;
+}
+
 /// Layers from the bottom. POV-Ray dims the light of a half transparent layer and of all below it by one
 /// half, but not highlights and reflections of the top layer; it has no coloured highlights, so these are
 /// white on a black layer at the bottom, under a layer that filters them.
 std::vector<std::string> layers_of(const PaintedPhong& phong, const std::string& roughness) {
-    const std::vector<Body> bodies = bodies_of(phong);
+    const bool transparent = !phong.transmit.is_black();
+    std::vector<Body> bodies = bodies_of(phong);
+    if (transparent && bodies[0].paint.is_black()) {
+        bodies.clear();
+    }
     const bool colored_highlight = !has_equal_channels(phong.specular);
+    const double gain = std::exp2(static_cast<double>(bodies.size()));
     std::vector<std::string> layers;
-    if (colored_highlight) {
-        const double gain = std::exp2(static_cast<double>(bodies.size()));
+    if (transparent) {
+        layers = clear_layers(phong, roughness, gain, bodies.empty());
+    } else if (colored_highlight) {
         layers.push_back(layer_text(pigment(Paint{}, 1, Layer::opaque), highlight(1, roughness)));
         layers.push_back(layer_text(pigment(phong.specular, gain, Layer::filter), ""));
     }
     for (std::size_t above = bodies.size(); above-- > 0;) {
-        const bool bottom = above + 1 == bodies.size() && !colored_highlight;
+        const bool bottom = above + 1 == bodies.size() && !colored_highlight && !transparent;
         const double gain = std::exp2(static_cast<double>(above) + (bottom ? 0 : 1));
         std::string finish = body_finish(bodies[above], gain);
         if (above == 0 && !colored_highlight && !phong.specular.is_black()) {
             finish += highlight(phong.specular.constant.r, roughness);
         }
-        if (above == 0 && !phong.reflect.is_black()) {
-            finish += fmt::format(" reflection {{ rgb {} }}", pov_color(phong.reflect.constant));
+        if (above == 0) {
+            finish += reflection(phong);
         }
         layers.push_back(
             layer_text(pigment(bodies[above].paint, 1, bottom ? Layer::opaque : Layer::half), finish));
@@ -205,9 +252,20 @@ Paint constant_paint(const Color& color) {
 
 } // namespace
 
+bool has_writable_highlight(const PaintedPhong& phong) {
+    const std::vector<Paint::Part>& parts = phong.specular.parts;
+    const bool grey = phong.specular.is_constant()
+                          ? is_grey(phong.specular.constant)
+                          : parts.size() == 1 && is_grey(parts[0].low) && is_grey(parts[0].high);
+    return phong.transmit.is_constant() || grey;
+}
+
 std::string PovTextures::declare(const std::string& name, const PaintedPhong& phong, Outcome& shininess) {
     if (!phong.reflect.is_constant()) {
-        return declare_varying_reflect(name, phong, shininess);
+        return declare_varying(name, phong, &PaintedPhong::reflect, shininess);
+    }
+    if (!phong.specular.is_constant() && !phong.transmit.is_black()) {
+        return declare_varying(name, phong, &PaintedPhong::specular, shininess);
     }
     if (!phong.shininess.is_constant() && !phong.specular.is_black()) {
         return declare_varying_shininess(name, phong, shininess);
@@ -215,17 +273,17 @@ std::string PovTextures::declare(const std::string& name, const PaintedPhong& ph
     return declare_layers(name, phong);
 }
 
-/// A finish has a constant reflection; between two textures POV-Ray blends.
-std::string PovTextures::declare_varying_reflect(const std::string& name, const PaintedPhong& phong,
-                                                 Outcome& shininess) {
-    const std::vector<Paint::Part> parts = phong.reflect.parts;
+/// A finish has a constant reflection and highlight; between two textures POV-Ray blends.
+std::string PovTextures::declare_varying(const std::string& name, const PaintedPhong& phong,
+                                         Paint PaintedPhong::*field, Outcome& shininess) {
+    const std::vector<Paint::Part> parts = (phong.*field).parts;
     const auto share = static_cast<double>(parts.size());
     std::vector<std::string> blends;
     for (const Paint::Part& part : parts) {
         std::vector<std::string> ends;
         for (const Color& end : {part.low, part.high}) {
             PaintedPhong fixed = phong;
-            fixed.reflect = constant_paint(end * share);
+            fixed.*field = constant_paint(end * share);
             ends.push_back(declare(name, fixed, shininess));
         }
         blends.push_back(declare_blend(name, part.t, ends));

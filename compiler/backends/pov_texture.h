@@ -8,10 +8,15 @@
 
 namespace scc::compiler {
 
-/// L7, L9, L15 with every field constant or a paint.
+/// L7, L9, L15 and transparency with every field constant or a paint.
 struct PaintedPhong {
-    Paint ambient, diffuse, specular, emission, reflect, shininess;
+    Paint ambient, diffuse, specular, emission, reflect, transmit, shininess;
+    bool fresnel = false; ///< of glass, which is without a colour of its own
 };
+
+/// Whether the highlight of a transparent surface can be written: POV-Ray colours one by a layer that filters
+/// what is seen through the surface as well, which the layer below can make up for if it is constant.
+bool has_writable_highlight(const PaintedPhong& phong);
 
 /// Declares textures that are exactly a Phong material, with the fewest layers that can be.
 class PovTextures {
@@ -26,8 +31,8 @@ private:
         double low, high;
         int steps;
     };
-    std::string declare_varying_reflect(const std::string& name, const PaintedPhong& phong,
-                                        Outcome& shininess);
+    std::string declare_varying(const std::string& name, const PaintedPhong& phong,
+                                Paint PaintedPhong::*field, Outcome& shininess);
     std::string declare_varying_shininess(const std::string& name, const PaintedPhong& phong,
                                           Outcome& shininess);
     std::string declare_stops(const std::string& name, const PaintedPhong& phong, const Stops& stops);

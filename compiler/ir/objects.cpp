@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 namespace scc::compiler::ir {
 
 lang::Span ObjectColumn::span_of(std::size_t round) const {
@@ -22,6 +24,40 @@ std::size_t object_count(const Scene& scene) {
         count += array.rounds * array.columns.size();
     }
     return count;
+}
+
+namespace {
+
+void add_iors(const Scene& scene, const runtime::Sides& sides, std::vector<double>& iors) {
+    for (const std::uint32_t side : {sides.front, sides.back}) {
+        const runtime::Phong<double>& phong = scene.materials[side].phong;
+        const auto place = std::lower_bound(iors.begin(), iors.end(), phong.ior);
+        if (lets_through(phong) && (place == iors.end() || *place != phong.ior)) {
+            iors.insert(place, phong.ior);
+        }
+    }
+}
+
+} // namespace
+
+std::vector<double> iors_of_solid(const Scene& scene, std::size_t root) {
+    std::vector<double> iors;
+    for_each_csg_node(scene, runtime::Csg<double>{static_cast<std::uint32_t>(root)},
+                      [&](const CsgNode& node) {
+                          if (node.op == runtime::CsgOp::member) {
+                              add_iors(scene, scene.members[node.member].sides, iors);
+                          }
+                      });
+    return iors;
+}
+
+std::vector<double> iors_of(const Scene& scene, const Object& object) {
+    if (const auto* solid = std::get_if<runtime::Csg<double>>(&object.shape)) {
+        return iors_of_solid(scene, solid->root);
+    }
+    std::vector<double> iors;
+    add_iors(scene, object.sides, iors);
+    return iors;
 }
 
 std::string_view csg_word(runtime::CsgOp op) {

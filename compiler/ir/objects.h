@@ -7,11 +7,18 @@
 #include <type_traits>
 #include <utility>
 #include <variant>
+#include <vector>
 
 /// The one way to go through all objects of a scene, those on their own and those of arrays, in source order.
 namespace scc::compiler::ir {
 
 std::size_t object_count(const Scene& scene);
+
+/// The indices of refraction that transparent surfaces give to what they enclose, those of an object or of
+/// the solid whose tree begins at a node: each once, ascending. A body has one; without any it is that of
+/// air, 1.
+std::vector<double> iors_of(const Scene& scene, const Object& object);
+std::vector<double> iors_of_solid(const Scene& scene, std::size_t root);
 
 /// The author's word: `union`, `intersection`, `difference`.
 std::string_view csg_word(runtime::CsgOp op);
