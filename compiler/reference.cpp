@@ -240,6 +240,10 @@ const std::map<std::string_view, std::string_view>& examples() {
         {"two_sided", "let mirror = phong { diffuse = rgb(0.1, 0.1, 0.1), reflect = rgb(0.8, 0.8, 0.8) }\n"
                       "disc { material = two_sided { front = mirror, back = phong { } } }"},
         {"point_light", "point_light { position = (4, 6, 3), attenuation = (1, 0.05, 0.01) }"},
+        {"spot_light",
+         "spot_light { position = (0, 5, 2), target = (0, 0, 0), inner = 15deg, outer = 20deg }"},
+        {"rectangle_light", "rectangle_light { corner = (-1, 4, -1), edge_u = (2, 0, 0), edge_v = (0, 0, 2), "
+                            "samples = (6, 6) }"},
         {"directional_light", "directional_light { direction = (-1, -2, -1), color = rgb(0.3, 0.3, 0.35) }"},
         {"perspective_camera", "perspective_camera { eye = (4, 3, 6), target = (0, 0.5, 0), fov_y = 40deg }"},
         {"orthographic_camera", "orthographic_camera { eye = (3, 2.5, 4), height = 3 }"},

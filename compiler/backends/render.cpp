@@ -48,6 +48,8 @@ std::shared_ptr<const OwnedScene<R>> build(const ir::Scene& scene, std::shared_p
     out.materials = materials_of<R>(scene);
     out.point_lights = lights_of<runtime::PointLight, R>(scene);
     out.directional_lights = lights_of<runtime::DirectionalLight, R>(scene);
+    out.spot_lights = lights_of<runtime::SpotLight, R>(scene);
+    out.rectangle_lights = lights_of<runtime::RectangleLight, R>(scene);
     for (const ir::Function& function : scene.functions) {
         out.functions.push_back(program_of<R>(function));
     }

@@ -86,7 +86,9 @@ struct CsgNode {
 };
 
 struct Light {
-    std::variant<runtime::PointLight<double>, runtime::DirectionalLight<double>> light;
+    std::variant<runtime::PointLight<double>, runtime::DirectionalLight<double>, runtime::SpotLight<double>,
+                 runtime::RectangleLight<double>>
+        light;
     std::string name; ///< unique
     lang::Span span;
 };

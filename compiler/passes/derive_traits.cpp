@@ -1,6 +1,7 @@
 #include "compiler/ir/objects.h"
 #include "compiler/ir/traits.h"
 #include "compiler/passes/passes.h"
+#include "runtime/illumination.h"
 
 #include <algorithm>
 #include <bit>
@@ -56,10 +57,24 @@ void need(SceneTraits& traits, const runtime::Phong<double>& p, int depth) {
     }
 }
 
+void need_of_points(SceneTraits& traits, const runtime::PointLight<double>& light) {
+    traits.attenuation |= runtime::is_attenuated(light);
+    traits.separate_specular |= !(light.diffuse == light.specular);
+}
+
 void need(SceneTraits& traits, const runtime::PointLight<double>& light) {
     traits.point_lights = true;
-    traits.attenuation |= light.kc != 1 || light.kl != 0 || light.kq != 0;
-    traits.separate_specular |= !(light.diffuse == light.specular);
+    need_of_points(traits, light);
+}
+
+void need(SceneTraits& traits, const runtime::SpotLight<double>& light) {
+    traits.spot_lights = true;
+    need_of_points(traits, light);
+}
+
+void need(SceneTraits& traits, const runtime::RectangleLight<double>& light) {
+    traits.rectangle_lights = true;
+    need_of_points(traits, light);
 }
 
 void need(SceneTraits& traits, const runtime::DirectionalLight<double>& light) {

@@ -274,6 +274,10 @@ def add_lamps(scene, set_up):
         if light["type"] == "POINT":
             ob.location = light["position"]
         #: end
+        #: spot
+        if "axis" in light:
+            ob.rotation_euler = (-mathutils.Vector(light["axis"])).to_track_quat("Z", "Y").to_euler()
+        #: end
         #: directional
         if light["type"] == "SUN":
             ob.rotation_euler = mathutils.Vector(light["to_light"]).to_track_quat("Z", "Y").to_euler()
