@@ -123,6 +123,13 @@ void add_shape(std::vector<Constructor>& rows) {
         Constructor row{.name = Shape::name, .type = TypeKind::shape};
         std::apply([&](const auto&... f) { (row.fields.push_back(schema_field(Shape{}, f)), ...); },
                    Shape::fields());
+        if constexpr (std::is_same_v<Shape, runtime::Quadric<double>>) {
+            row.fields.push_back({.name = "within",
+                                  .type = TypeKind::shape,
+                                  .doc =
+                                      "a sphere, box, cylinder or cone: only what is inside of it, and its "
+                                      "own surface closes the solid; else the quadric is unbounded"});
+        }
         add_shape_fields(row);
         rows.push_back(std::move(row));
     }
@@ -170,6 +177,36 @@ Constructor implicit() {
     return row;
 }
 
+Constructor heightfield() {
+    Constructor row{.name = "heightfield",
+                    .type = TypeKind::shape,
+                    .doc = "a landscape over a rectangle in the plane y = 0 about the origin, of triangles "
+                           "with normals at their corners"};
+    row.fields = {{.name = "field",
+                   .type = Type::function({TypeKind::vec2}, TypeKind::number),
+                   .required = true,
+                   .doc = "of (u, v), which run from 0 to 1 along x and z"},
+                  {.name = "size",
+                   .type = TypeKind::vec2,
+                   .default_value = vec2(1, 1),
+                   .limits = positive("a size is greater than 0"),
+                   .doc = "in x and z"},
+                  {.name = "height",
+                   .type = TypeKind::number,
+                   .default_value = number(1),
+                   .doc = "y is this times the field"},
+                  {.name = "cells",
+                   .type = TypeKind::vec2,
+                   .default_value = vec2(256, 256),
+                   .limits = {.min = 1,
+                              .max = 2048,
+                              .integer = true,
+                              .rule = "cells along a side are a whole number from 1 to 2048"},
+                   .doc = "along x and z; each is two triangles"}};
+    add_shape_fields(row);
+    return row;
+}
+
 Constructor with_children(std::string_view name, std::string_view doc) {
     Constructor row{.name = name, .type = TypeKind::shape, .takes_children = true, .doc = doc};
     add_shape_fields(row);
@@ -195,6 +232,24 @@ Field color(std::string_view name, std::optional<Value> value, std::string_view 
             .per_point = per_point,
             .limits = non_negative,
             .doc = doc};
+}
+
+Constructor polyline() {
+    Constructor row{.name = "polyline", .type = TypeKind::shape, .doc = "a line from point to point"};
+    row.fields = {
+        {.name = "points", .type = Type::list_of(TypeKind::vec3), .required = true, .doc = "two or more"},
+        color("color", std::nullopt, "diffuse colour; else that of `material`"),
+        {.name = "width",
+         .type = TypeKind::number,
+         .default_value = number(1),
+         .limits = positive("a width is greater than 0"),
+         .doc = "in pixels (raster)"},
+        {.name = "radius",
+         .type = TypeKind::number,
+         .limits = positive("a radius is greater than 0"),
+         .doc = "makes it a chain of capsules, which rays can meet; needed by ray { }"}};
+    add_shape_fields(row);
+    return row;
 }
 
 Constructor phong() {
@@ -500,10 +555,6 @@ Constructor raster() {
 // The language's other words: known, so that a scene that uses one is told the truth.
 void add_unsupported(std::vector<Constructor>& rows) {
     const std::pair<std::string_view, TypeKind> words[] = {
-        {"torus", TypeKind::shape},
-        {"quadric", TypeKind::shape},
-        {"heightfield", TypeKind::shape},
-        {"polyline", TypeKind::shape},
         {"spherical_camera", TypeKind::camera},
         {"sky_light", TypeKind::light},
         {"glass", TypeKind::material},
@@ -522,6 +573,10 @@ constexpr std::pair<std::string_view, std::string_view> docs[] = {
     {"plane", "without end, the points p with dot(normalize(normal), p) = offset"},
     {"cylinder", "around the line between two points, open or closed by caps"},
     {"cone", "around the line between two points, with a radius at each"},
+    {"torus", "a ring, whose tube has a circle in its middle"},
+    {"quadric",
+     "the points where a polynomial of the second degree is 0, such as ellipsoids, paraboloids and "
+     "hyperboloids"},
     {"disc", "flat and round, with or without a hole"},
     {"triangle", "three points; with normals at them it looks smooth"},
     {"point_light", "shines from a point to all sides"},
@@ -547,9 +602,26 @@ void add_docs(std::vector<Constructor>& rows) {
 lang::Schema make_schema() {
     lang::Schema schema;
     add_shapes(schema.constructors, runtime::Shapes<double>{});
-    for (auto make : {mesh, implicit, group, unite, intersection, difference, phong, two_sided, point_light,
-                      directional_light, spot_light, rectangle_light, perspective_camera, orthographic_camera,
-                      world, render, ray, raster}) {
+    for (auto make : {mesh,
+                      implicit,
+                      heightfield,
+                      polyline,
+                      group,
+                      unite,
+                      intersection,
+                      difference,
+                      phong,
+                      two_sided,
+                      point_light,
+                      directional_light,
+                      spot_light,
+                      rectangle_light,
+                      perspective_camera,
+                      orthographic_camera,
+                      world,
+                      render,
+                      ray,
+                      raster}) {
         schema.constructors.push_back(make());
     }
     add_docs(schema.constructors);

@@ -107,6 +107,16 @@ std::vector<Scalar> trace_with(const Value& argument, const ClosurePtr& function
     return {parts.v.begin(), parts.v.begin() + parts.count};
 }
 
+template <class Vector>
+Vector inputs(SymbolBuilder& builder) {
+    constexpr std::array<std::string_view, 3> names{"p.x", "p.y", "p.z"};
+    Vector vector;
+    for (std::size_t i = 0; i < vector.v.size(); ++i) {
+        vector.v[i] = {0, builder.input(names[i])};
+    }
+    return vector;
+}
+
 } // namespace
 
 std::vector<Scalar> trace(const ClosurePtr& function, SymbolBuilder& builder, Diagnostics& diagnostics) {
@@ -115,12 +125,12 @@ std::vector<Scalar> trace(const ClosurePtr& function, SymbolBuilder& builder, Di
 
 std::vector<Scalar> trace_at_point(const ClosurePtr& function, SymbolBuilder& builder,
                                    Diagnostics& diagnostics) {
-    Vec3Value point;
-    constexpr std::array<std::string_view, 3> names{"p.x", "p.y", "p.z"};
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        point.v[i] = {0, builder.input(names[i])};
-    }
-    return trace_with({point}, function, builder, diagnostics);
+    return trace_with({inputs<Vec3Value>(builder)}, function, builder, diagnostics);
+}
+
+std::vector<Scalar> trace_at_pair(const ClosurePtr& function, SymbolBuilder& builder,
+                                  Diagnostics& diagnostics) {
+    return trace_with({inputs<Vec2Value>(builder)}, function, builder, diagnostics);
 }
 
 std::string_view name_of(const Closure& function) {

@@ -32,7 +32,7 @@ template <class Shape>
 Account account(const Shape&, bool mirror, bool smooth, bool pattern) {
     using namespace runtime;
     if constexpr (std::is_same_v<Shape, Sphere<double>> || std::is_same_v<Shape, Cylinder<double>> ||
-                  std::is_same_v<Shape, Cone<double>>) {
+                  std::is_same_v<Shape, Cone<double>> || std::is_same_v<Shape, Torus<double>>) {
         return {Fidelity::approximated,
                 "hit and normal exact, computed in the material; outline and shadow by a mesh; bound in "
                 "pixels, for a "
@@ -40,6 +40,8 @@ Account account(const Shape&, bool mirror, bool smooth, bool pattern) {
                 0.004};
     } else if constexpr (std::is_same_v<Shape, Implicit<double>>) {
         return {Fidelity::dropped, "Blender has no implicit surfaces, and a mesh of it is not made yet"};
+    } else if constexpr (std::is_same_v<Shape, Quadric<double>>) {
+        return {Fidelity::dropped, "Blender has no quadrics, and a mesh of it is not made yet"};
     } else if constexpr (std::is_same_v<Shape, Disc<double>>) {
         return {Fidelity::approximated, "a polygon; bound of its rim in pixels", 0.004};
     } else if constexpr (std::is_same_v<Shape, Plane<double>>) {

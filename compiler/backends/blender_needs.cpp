@@ -75,7 +75,8 @@ template <class Shape>
 MirrorView sees_itself(const Shape& shape, const Vec3<double>& eye) {
     using namespace runtime;
     if constexpr (std::is_same_v<Shape, Mesh<double>> || std::is_same_v<Shape, Csg<double>> ||
-                  std::is_same_v<Shape, Implicit<double>>) {
+                  std::is_same_v<Shape, Implicit<double>> || std::is_same_v<Shape, Torus<double>> ||
+                  std::is_same_v<Shape, Quadric<double>>) {
         return {true, true};
     } else if constexpr (std::is_same_v<Shape, Triangle<double>>) {
         return {shape.smooth, shape.smooth};
@@ -223,7 +224,12 @@ private:
         want("plane");
         want(has_pattern(object, scene_) ? "horizon" : "flat");
     }
+    void add(const ir::Object& object, const runtime::Torus<double>&) {
+        want("torus");
+        add_curved(object);
+    }
     void add(const ir::Object&, const runtime::Implicit<double>&) {} // dropped
+    void add(const ir::Object&, const runtime::Quadric<double>&) {}  // dropped
     void add(const ir::Object& object, const runtime::Triangle<double>&) {
         want("triangle");
         want(is_smooth(object.shape, scene_) ? "smooth" : "flat");

@@ -237,6 +237,12 @@ private:
         const std::string normals = t.smooth ? ", normals=" + triple(t.normals) : "";
         return fmt::format("type=\"triangle\", points={}{}", triple(t.points), normals);
     }
+    /// `tube`: its radius as a part of the circle's.
+    static std::string described(const runtime::Torus<double>& t) {
+        return fmt::format("type=\"torus\", center={}, axis={}, major={}, tube={}", python(t.center),
+                           python(t.axis), python(t.major), python(t.minor / t.major));
+    }
+    static std::string described(const runtime::Quadric<double>&) { return ""; }  // dropped
     static std::string described(const runtime::Csg<double>&) { return ""; }      // not written
     static std::string described(const runtime::Implicit<double>&) { return ""; } // dropped
     std::string described(const runtime::Mesh<double>& m) const {

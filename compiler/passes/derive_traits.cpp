@@ -2,6 +2,7 @@
 #include "compiler/ir/traits.h"
 #include "compiler/passes/passes.h"
 #include "runtime/illumination.h"
+#include "runtime/primitive.h"
 
 #include <algorithm>
 #include <bit>
@@ -92,6 +93,11 @@ void add(SceneTraits& traits, const SceneTraits& more) {
     }
 }
 
+template <class Shape>
+std::size_t count_bounded(const Shape&) {
+    return runtime::is_bounded<Shape> ? 1 : 0;
+}
+
 } // namespace
 
 std::vector<Need> needs_of(const ir::Scene& scene) {
@@ -132,13 +138,13 @@ void derive_traits(ir::Scene& scene) {
     ir::for_each_piece(
         scene,
         [&](const ir::Object& object) {
-            bounded += std::holds_alternative<runtime::Plane<double>>(object.shape) ? 0 : 1;
+            bounded += std::visit([](const auto& shape) { return count_bounded(shape); }, object.shape);
         },
         [&](const ir::ObjectArray& array) {
             for (const ir::ObjectColumn& column : array.columns) {
-                const bool planes =
-                    std::holds_alternative<std::vector<runtime::Plane<double>>>(column.shapes);
-                bounded += planes ? 0 : array.rounds;
+                bounded +=
+                    array.rounds *
+                    std::visit([](const auto& shapes) { return count_bounded(shapes[0]); }, column.shapes);
             }
         });
     traits.accelerator = bounded > runtime::accelerator_threshold;

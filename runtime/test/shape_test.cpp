@@ -71,7 +71,22 @@ public:
                       std::is_same_v<Shape, Plane<Real>>) {
             return true;
         }
+        if constexpr (requires { Shape().cross(Ray<Real>{}); }) { // not convex
+            const Affine<long double> back = inverse(affine_cast<long double>(single.world_from_object));
+            const Vec3<Real> org = start_off(at.surface, dir);
+            const Ray<long double> ray{transform_point(back, lanes<long double>(org)),
+                                       transform_vector(back, lanes<long double>(dir))};
+            return !(wide(single.shape).intersect(ray).t < infinity<long double>());
+        }
         return outwards && !is_mesh<Shape>;
+    }
+    /// In long double, which knows whether a ray meets a shape again.
+    static Torus<long double> wide(const Torus<Real>& s) {
+        return {lanes<long double>(s.center), lanes<long double>(s.axis), s.major, s.minor};
+    }
+    static Quadric<long double> wide(const Quadric<Real>& s) {
+        return {lanes<long double>(s.squares), lanes<long double>(s.products), lanes<long double>(s.linear),
+                s.constant};
     }
 
     /// Whether a ray that should start inside starts outside, since a cone is thinner at its tip or at a
@@ -232,7 +247,9 @@ TYPED_TEST(EveryShape, RayGoingInsideMeetsTheFarSideOnly) {
         const auto far = single.surface(ray, hit);
         EXPECT_GT(dot(far.surface.normal, dir), 0) << "leaves there";
         const Ray<R> outside{start_off(far.surface, dir), dir, spawned_t_min<R>(), infinity<R>()};
-        EXPECT_FALSE(any_hit(single.scene, outside));
+        if (this->is_left_for_good(single, far, dir)) {
+            EXPECT_FALSE(any_hit(single.scene, outside));
+        }
     });
 }
 
