@@ -77,9 +77,9 @@ bool has_path_in_name(const Thing& thing) {
 
 class ObjectLowering {
 public:
-    ObjectLowering(const lang::Module& module, const LowerOptions& options, ir::Scene& scene,
-                   lang::Diagnostics& diagnostics)
-        : options_(options), scene_(scene), diagnostics_(diagnostics), materials_(scene, diagnostics),
+    ObjectLowering(const lang::Module& module, const LowerOptions& options, MaterialTable& materials,
+                   ir::Scene& scene, lang::Diagnostics& diagnostics)
+        : options_(options), scene_(scene), diagnostics_(diagnostics), materials_(materials),
           paths_may_meet_(std::any_of(module.items.begin(), module.items.end(),
                                       [](const lang::ThingPtr& item) { return has_path_in_name(*item); })) {}
 
@@ -145,7 +145,7 @@ private:
     const LowerOptions& options_;
     ir::Scene& scene_;
     lang::Diagnostics& diagnostics_;
-    MaterialTable materials_;
+    MaterialTable& materials_;
     using MeshKey = std::tuple<std::filesystem::path, std::string, MeshNormals>; ///< folder, name
     std::map<MeshKey, std::optional<std::uint32_t>> meshes_;
     std::map<const Thing*, std::optional<std::uint32_t>> heightfields_;
@@ -860,10 +860,20 @@ std::string ObjectLowering::unique_path(const std::string& wanted) {
 ir::Scene lower(const lang::Module& module, const LowerOptions& options, lang::Diagnostics& diagnostics) {
     ir::Scene scene;
     scene.name = options.name;
-    lower_settings(module, scene, diagnostics);
-    ObjectLowering(module, options, scene, diagnostics).add_all(module.items, "", {}, nullptr);
+    const lang::Spectrum& illuminant = illuminant_of(module);
+    const Rendition rec709 = Rendition::rec709(illuminant);
+    lower_settings(module, rec709, scene, diagnostics);
+    MaterialTable materials(scene, rec709, diagnostics);
+    // Holds things that the materials refer to until the end.
+    ObjectLowering objects(module, options, materials, scene, diagnostics);
+    objects.add_all(module.items, "", {}, nullptr);
     lower_camera(module, options, scene, diagnostics);
-    lower_lights(module, scene, diagnostics);
+    lower_lights(module, rec709, scene, diagnostics);
+    if (materials.has_spectra() || view_has_spectra(module)) {
+        const std::vector<Rendition> bands = Rendition::bands(illuminant);
+        materials.add_bands(bands);
+        add_view_bands(module, bands, scene);
+    }
     return scene;
 }
 

@@ -90,8 +90,8 @@ std::optional<std::string> evaluate_name(std::shared_ptr<const ast::File> file, 
 
 namespace {
 
-std::vector<Scalar> trace_with(const Value& argument, const ClosurePtr& function, SymbolBuilder& builder,
-                               Diagnostics& diagnostics) {
+Components trace_with(const Value& argument, const ClosurePtr& function, SymbolBuilder& builder,
+                      Diagnostics& diagnostics) {
     RunReport report;
     Evaluator evaluator({}, report, &builder);
     const Span span = span_of(*function);
@@ -104,6 +104,10 @@ std::vector<Scalar> trace_with(const Value& argument, const ClosurePtr& function
         }
     }
     report.flush(diagnostics);
+    return parts;
+}
+
+std::vector<Scalar> scalars(const Components& parts) {
     return {parts.v.begin(), parts.v.begin() + parts.count};
 }
 
@@ -119,18 +123,18 @@ Vector inputs(SymbolBuilder& builder) {
 
 } // namespace
 
-std::vector<Scalar> trace(const ClosurePtr& function, SymbolBuilder& builder, Diagnostics& diagnostics) {
+Components trace(const ClosurePtr& function, SymbolBuilder& builder, Diagnostics& diagnostics) {
     return trace_with({SurfaceValue{}}, function, builder, diagnostics);
 }
 
 std::vector<Scalar> trace_at_point(const ClosurePtr& function, SymbolBuilder& builder,
                                    Diagnostics& diagnostics) {
-    return trace_with({inputs<Vec3Value>(builder)}, function, builder, diagnostics);
+    return scalars(trace_with({inputs<Vec3Value>(builder)}, function, builder, diagnostics));
 }
 
 std::vector<Scalar> trace_at_pair(const ClosurePtr& function, SymbolBuilder& builder,
                                   Diagnostics& diagnostics) {
-    return trace_with({inputs<Vec2Value>(builder)}, function, builder, diagnostics);
+    return scalars(trace_with({inputs<Vec2Value>(builder)}, function, builder, diagnostics));
 }
 
 std::string_view name_of(const Closure& function) {
