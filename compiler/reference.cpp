@@ -225,6 +225,12 @@ const std::map<std::string_view, std::string_view>& examples() {
         {"cone", "cone { from = (0, 0, 0), to = (0, 2, 0), radius_from = 1, radius_to = 0.2 }"},
         {"disc", "disc { normal = (0, 0, 1), radius = 1, hole = 0.5 }"},
         {"triangle", "triangle { points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)] }"},
+        {"torus", "torus { center = (0, 0.3, 0), axis = (0, 1, 0), major = 1, minor = 0.3 }"},
+        {"quadric", "quadric { // a hyperboloid of one sheet\n  squares = (1, -0.5, 1)\n  constant = -0.2\n  "
+                    "within = box { min = (-2, -1, -2), max = (2, 1, 2) }\n}"},
+        {"heightfield", "fn waves(uv: vec2) -> number = 0.5 + 0.5 * sin(20 * uv.x) * cos(15 * uv.y)\n"
+                        "heightfield { field = waves, size = (8, 8), height = 0.4, cells = (64, 64) }"},
+        {"polyline", "polyline { points = [(0, 0, 0), (1, 1, 0), (2, 0, 0)], radius = 0.05 }"},
         {"mesh", "fn model(file: string) -> shape = mesh { file = file, normals = \"smooth\" }"},
         {"group", "group {\n  transform = rotate_y(30deg)\n  sphere { }\n  sphere { center = (2, 0, 0) }\n}"},
         {"implicit", "implicit {\n  field = fn(p: vec3) = p.x ^ 4 + p.y ^ 4 + p.z ^ 4 - 1\n  within = sphere "
@@ -240,6 +246,10 @@ const std::map<std::string_view, std::string_view>& examples() {
         {"two_sided", "let mirror = phong { diffuse = rgb(0.1, 0.1, 0.1), reflect = rgb(0.8, 0.8, 0.8) }\n"
                       "disc { material = two_sided { front = mirror, back = phong { } } }"},
         {"point_light", "point_light { position = (4, 6, 3), attenuation = (1, 0.05, 0.01) }"},
+        {"spot_light",
+         "spot_light { position = (0, 5, 2), target = (0, 0, 0), inner = 15deg, outer = 20deg }"},
+        {"rectangle_light", "rectangle_light { corner = (-1, 4, -1), edge_u = (2, 0, 0), edge_v = (0, 0, 2), "
+                            "samples = (6, 6) }"},
         {"directional_light", "directional_light { direction = (-1, -2, -1), color = rgb(0.3, 0.3, 0.35) }"},
         {"perspective_camera", "perspective_camera { eye = (4, 3, 6), target = (0, 0.5, 0), fov_y = 40deg }"},
         {"orthographic_camera", "orthographic_camera { eye = (3, 2.5, 4), height = 3 }"},

@@ -107,6 +107,20 @@ Components trace_with(const Value& argument, const ClosurePtr& function, SymbolB
     return parts;
 }
 
+std::vector<Scalar> scalars(const Components& parts) {
+    return {parts.v.begin(), parts.v.begin() + parts.count};
+}
+
+template <class Vector>
+Vector inputs(SymbolBuilder& builder) {
+    constexpr std::array<std::string_view, 3> names{"p.x", "p.y", "p.z"};
+    Vector vector;
+    for (std::size_t i = 0; i < vector.v.size(); ++i) {
+        vector.v[i] = {0, builder.input(names[i])};
+    }
+    return vector;
+}
+
 } // namespace
 
 Components trace(const ClosurePtr& function, SymbolBuilder& builder, Diagnostics& diagnostics) {
@@ -115,13 +129,12 @@ Components trace(const ClosurePtr& function, SymbolBuilder& builder, Diagnostics
 
 std::vector<Scalar> trace_at_point(const ClosurePtr& function, SymbolBuilder& builder,
                                    Diagnostics& diagnostics) {
-    Vec3Value point;
-    constexpr std::array<std::string_view, 3> names{"p.x", "p.y", "p.z"};
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        point.v[i] = {0, builder.input(names[i])};
-    }
-    const Components parts = trace_with({point}, function, builder, diagnostics);
-    return {parts.v.begin(), parts.v.begin() + parts.count};
+    return scalars(trace_with({inputs<Vec3Value>(builder)}, function, builder, diagnostics));
+}
+
+std::vector<Scalar> trace_at_pair(const ClosurePtr& function, SymbolBuilder& builder,
+                                  Diagnostics& diagnostics) {
+    return scalars(trace_with({inputs<Vec2Value>(builder)}, function, builder, diagnostics));
 }
 
 std::string_view name_of(const Closure& function) {

@@ -82,6 +82,9 @@ Components trace(const ClosurePtr& function, SymbolBuilder& builder, Diagnostics
 /// The same for a function of a point, which is the builder's p.x p.y p.z.
 std::vector<Scalar> trace_at_point(const ClosurePtr& function, SymbolBuilder& builder,
                                    Diagnostics& diagnostics);
+/// The same for a function of two numbers, which are the builder's p.x p.y.
+std::vector<Scalar> trace_at_pair(const ClosurePtr& function, SymbolBuilder& builder,
+                                  Diagnostics& diagnostics);
 
 /// The name of the `fn` or `let` that a function value came from; empty for a lambda.
 std::string_view name_of(const Closure& function);

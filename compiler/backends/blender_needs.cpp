@@ -2,6 +2,7 @@
 
 #include "compiler/bounds.h"
 #include "compiler/ir/objects.h"
+#include "runtime/illumination.h"
 
 #include <algorithm>
 #include <array>
@@ -74,7 +75,8 @@ template <class Shape>
 MirrorView sees_itself(const Shape& shape, const Vec3<double>& eye) {
     using namespace runtime;
     if constexpr (std::is_same_v<Shape, Mesh<double>> || std::is_same_v<Shape, Csg<double>> ||
-                  std::is_same_v<Shape, Implicit<double>>) {
+                  std::is_same_v<Shape, Implicit<double>> || std::is_same_v<Shape, Torus<double>> ||
+                  std::is_same_v<Shape, Quadric<double>>) {
         return {true, true};
     } else if constexpr (std::is_same_v<Shape, Triangle<double>>) {
         return {shape.smooth, shape.smooth};
@@ -222,7 +224,12 @@ private:
         want("plane");
         want(has_pattern(object, scene_) ? "horizon" : "flat");
     }
+    void add(const ir::Object& object, const runtime::Torus<double>&) {
+        want("torus");
+        add_curved(object);
+    }
     void add(const ir::Object&, const runtime::Implicit<double>&) {} // dropped
+    void add(const ir::Object&, const runtime::Quadric<double>&) {}  // dropped
     void add(const ir::Object& object, const runtime::Triangle<double>&) {
         want("triangle");
         want(is_smooth(object.shape, scene_) ? "smooth" : "flat");
@@ -234,11 +241,15 @@ private:
         needs_.meshes[mesh.mesh] = true;
     }
 
-    void add(const runtime::PointLight<double>& light) {
+    void add(const runtime::PointLight<double>& light) { // a rectangle light is many
         want("point");
-        if (light.kc != 1 || light.kl != 0 || light.kq != 0) {
+        if (is_attenuated(light)) {
             want("attenuation");
         }
+    }
+    void add(const runtime::SpotLight<double>& light) {
+        add(static_cast<const runtime::PointLight<double>&>(light));
+        want("spot");
     }
     void add(const runtime::DirectionalLight<double>&) { want("directional"); }
 
@@ -261,9 +272,7 @@ private:
         runtime::Bounds<double> box = world_bounds(scene_);
         box.add(scene_.camera.eye);
         for (const ir::Light& light : scene_.lights) {
-            if (const auto* point = std::get_if<runtime::PointLight<double>>(&light.light)) {
-                box.add(point->position);
-            }
+            std::visit([&](const auto& l) { include(l, box); }, light.light);
         }
         ir::for_each_shape(scene_, [&]<class Shape>(const Shape& shape, const runtime::Affine<double>& place,
                                                     const runtime::Sides&) {
@@ -275,6 +284,15 @@ private:
         const double extent = length(box.max - needs_.center);
         needs_.extent = extent > 0 ? extent : 1;
     }
+
+    static void include(const runtime::PointLight<double>& light, runtime::Bounds<double>& box) {
+        box.add(light.position);
+    }
+    static void include(const runtime::RectangleLight<double>& light, runtime::Bounds<double>& box) {
+        box.add(light.position);
+        box.add(light.position + (light.edge_u + light.edge_v));
+    }
+    static void include(const runtime::DirectionalLight<double>&, runtime::Bounds<double>&) {}
 
     static Vec3<double> foot(const runtime::Plane<double>& plane, const runtime::Affine<double>& place,
                              const Vec3<double>& eye) {

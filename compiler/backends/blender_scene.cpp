@@ -61,11 +61,20 @@ private:
         out_.line("LIGHTS = {{");
         out_.indent();
         for (const ir::Light& light : scene_.lights) {
-            std::string text = std::visit([&](const auto& l) { return place(l) + colors(l); }, light.light);
-            out_.line("{}: dict({}),", python(light.name), text);
+            std::visit([&](const auto& l) { write_light(light.name, l); }, light.light);
         }
         out_.dedent();
         out_.line("}}");
+    }
+    template <class Light>
+    void write_light(const std::string& name, const Light& light) {
+        out_.line("{}: dict({}{}),", python(name), place(light), colors(light));
+    }
+    void write_light(const std::string& name, const runtime::RectangleLight<double>& light) {
+        int number = 0;
+        for_each_point(light, [&](const runtime::PointLight<double>& point) {
+            write_light(fmt::format("{}[{}]", name, number++), point);
+        });
     }
     static std::string place(const runtime::PointLight<double>& light) {
         std::string text = "type=\"POINT\", position=" + python(light.position);
@@ -74,6 +83,11 @@ private:
                                 python(light.kq));
         }
         return text;
+    }
+    static std::string place(const runtime::SpotLight<double>& light) {
+        return place(static_cast<const runtime::PointLight<double>&>(light)) +
+               fmt::format(", axis={}, cone=({}, {}, {})", python(light.axis), python(light.cos_inner),
+                           python(light.cos_outer), python(light.exponent));
     }
     static std::string place(const runtime::DirectionalLight<double>& light) {
         return "type=\"SUN\", to_light=" + python(light.to_light);
@@ -223,6 +237,12 @@ private:
         const std::string normals = t.smooth ? ", normals=" + triple(t.normals) : "";
         return fmt::format("type=\"triangle\", points={}{}", triple(t.points), normals);
     }
+    /// `tube`: its radius as a part of the circle's.
+    static std::string described(const runtime::Torus<double>& t) {
+        return fmt::format("type=\"torus\", center={}, axis={}, major={}, tube={}", python(t.center),
+                           python(t.axis), python(t.major), python(t.minor / t.major));
+    }
+    static std::string described(const runtime::Quadric<double>&) { return ""; }  // dropped
     static std::string described(const runtime::Csg<double>&) { return ""; }      // not written
     static std::string described(const runtime::Implicit<double>&) { return ""; } // dropped
     std::string described(const runtime::Mesh<double>& m) const {

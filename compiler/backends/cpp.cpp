@@ -81,6 +81,16 @@ std::string literal(const runtime::PointLight<R>& l) {
                        literal(l.specular), literal(l.kc), literal(l.kl), literal(l.kq));
 }
 template <class R>
+std::string literal(const runtime::SpotLight<R>& l) {
+    return fmt::format("{{{}, {}, {}, {}, {}}}", literal(static_cast<const runtime::PointLight<R>&>(l)),
+                       literal(l.axis), literal(l.cos_inner), literal(l.cos_outer), literal(l.exponent));
+}
+template <class R>
+std::string literal(const runtime::RectangleLight<R>& l) {
+    return fmt::format("{{{}, {}, {}, {}, {}}}", literal(static_cast<const runtime::PointLight<R>&>(l)),
+                       literal(l.edge_u), literal(l.edge_v), l.nu, l.nv);
+}
+template <class R>
 std::string literal(const runtime::DirectionalLight<R>& l) {
     return fmt::format("{{{}, {}, {}}}", literal(l.to_light), literal(l.diffuse), literal(l.specular));
 }
@@ -430,6 +440,12 @@ void Emitter<R>::colors() {
     if (scene_.traits.directional_lights || any_scene_) {
         colored_table("DirectionalLight<R>", "directional_lights",
                       lights_of<runtime::DirectionalLight, R>(scene_));
+    }
+    if (scene_.traits.spot_lights || any_scene_) {
+        colored_table("SpotLight<R>", "spot_lights", lights_of<runtime::SpotLight, R>(scene_));
+    }
+    if (scene_.traits.rectangle_lights || any_scene_) {
+        colored_table("RectangleLight<R>", "rectangle_lights", lights_of<runtime::RectangleLight, R>(scene_));
     }
     if (!has_bands()) {
         member("Rgb<R>", "ambient", convert(scene_.ambient, R{}));

@@ -42,7 +42,8 @@ double plane_distance(const runtime::Plane<double>& plane, const Affine<double>&
            length(transform_normal(object_from_world, n));
 }
 
-/// The stretch that matters: around the eye and all bounded objects, else down to the farthest plane.
+/// The stretch that matters: around the eye, all bounded objects and the origins of other unbounded ones,
+/// else down to the farthest plane.
 double extent_of(const ir::Scene& scene, Bounds<double>& around) {
     double planes = 0;
     around.add(scene.camera.eye);
@@ -50,8 +51,10 @@ double extent_of(const ir::Scene& scene, Bounds<double>& around) {
         scene, [&]<class Shape>(const Shape& shape, const Affine<double>& place, const runtime::Sides&) {
             if constexpr (std::is_same_v<Shape, runtime::Plane<double>>) {
                 planes = std::max(planes, plane_distance(shape, place, scene.camera.eye));
+            } else if (const auto bounds = object_bounds(shape, scene)) {
+                around.add(transform_bounds(place, *bounds));
             } else {
-                around.add(transform_bounds(place, *object_bounds(shape, scene)));
+                around.add(translation_of(place));
             }
         });
     const double bounded = size_of(around);

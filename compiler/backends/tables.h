@@ -53,6 +53,16 @@ runtime::PointLight<R> convert(const runtime::PointLight<double>& l, R real) {
             convert(l.kc, real),       convert(l.kl, real),      convert(l.kq, real)};
 }
 template <class R>
+runtime::SpotLight<R> convert(const runtime::SpotLight<double>& l, R real) {
+    return {convert(static_cast<const runtime::PointLight<double>&>(l), real), convert(l.axis, real),
+            convert(l.cos_inner, real), convert(l.cos_outer, real), convert(l.exponent, real)};
+}
+template <class R>
+runtime::RectangleLight<R> convert(const runtime::RectangleLight<double>& l, R real) {
+    return {convert(static_cast<const runtime::PointLight<double>&>(l), real), convert(l.edge_u, real),
+            convert(l.edge_v, real), l.nu, l.nv};
+}
+template <class R>
 runtime::DirectionalLight<R> convert(const runtime::DirectionalLight<double>& l, R real) {
     return {convert(l.to_light, real), convert(l.diffuse, real), convert(l.specular, real)};
 }

@@ -159,9 +159,20 @@ void print_object(Writer& out, const std::string& heading, const Object& object,
     out.line("}}");
 }
 
-std::string light_text(const runtime::PointLight<double>& l) {
-    return fmt::format("point position = {}, diffuse = {}, specular = {}, attenuation = ({}, {}, {})",
+std::string point_text(const runtime::PointLight<double>& l) {
+    return fmt::format("position = {}, diffuse = {}, specular = {}, attenuation = ({}, {}, {})",
                        text(l.position), text(l.diffuse), text(l.specular), l.kc, l.kl, l.kq);
+}
+std::string light_text(const runtime::PointLight<double>& l) {
+    return "point " + point_text(l);
+}
+std::string light_text(const runtime::SpotLight<double>& l) {
+    return fmt::format("spot {}, axis = {}, cos_inner = {}, cos_outer = {}, exponent = {}", point_text(l),
+                       text(l.axis), l.cos_inner, l.cos_outer, l.exponent);
+}
+std::string light_text(const runtime::RectangleLight<double>& l) {
+    return fmt::format("rectangle {}, edge_u = {}, edge_v = {}, samples = ({}, {})", point_text(l),
+                       text(l.edge_u), text(l.edge_v), l.nu, l.nv);
 }
 std::string light_text(const runtime::DirectionalLight<double>& l) {
     return fmt::format("directional to_light = {}, diffuse = {}, specular = {}", text(l.to_light),

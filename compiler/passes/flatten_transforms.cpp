@@ -96,6 +96,15 @@ bool flatten(runtime::Disc<double>& d, const Affine<double>& a) {
     return scale.has_value();
 }
 
+bool flatten(runtime::Torus<double>& t, const Affine<double>& a) {
+    const auto scale = similarity(a);
+    if (scale) {
+        t = {transform_point(a, t.center), normalize(transform_normal(inverse(a), t.axis)), t.major * *scale,
+             t.minor * *scale};
+    }
+    return scale.has_value();
+}
+
 bool flatten(runtime::Triangle<double>& t, const Affine<double>& a) {
     // Interpolated normals keep their directions only under a similarity, since they are normalised at the
     // corners.
@@ -119,6 +128,10 @@ bool flatten(runtime::Mesh<double>&, const Affine<double>&) {
 
 bool flatten(runtime::Csg<double>&, const Affine<double>&) {
     return false; // always in world coordinates
+}
+
+bool flatten(runtime::Quadric<double>&, const Affine<double>&) {
+    return false; // its factors would lose digits far from the origin
 }
 
 bool flatten(runtime::Implicit<double>&, const Affine<double>&) {

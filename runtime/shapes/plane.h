@@ -46,7 +46,7 @@ struct Plane {
                 choose(slope > 0, t, choose(slope < 0, inf, everywhere))};
     }
     /// A box around what lies behind the plane, as far as that has bounds.
-    constexpr Bounds<R> half_space_bounds() const {
+    constexpr Bounds<R> inside_bounds() const {
         Bounds<R> box{{-infinity<R>(), -infinity<R>(), -infinity<R>()},
                       {infinity<R>(), infinity<R>(), infinity<R>()}};
         const R limit = offset + 16 * roundoff<R>() * absolute(offset);

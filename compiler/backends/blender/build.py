@@ -156,6 +156,9 @@ HITS = {
     #: cone
     "cone": cone_hit,
     #: end
+    #: torus
+    "torus": torus_hit,
+    #: end
     #: cap
     "cap": cap_hit,
     #: end
@@ -183,6 +186,9 @@ SHAPES = {
     #: cone
     "cone": Shape(cone_mesh, side_and_caps, lambda o: (o.get("caps", True), o["taper"], *cylinder_cells(o)),
                   cylinder_axes),
+    #: end
+    #: torus
+    "torus": Shape(torus_mesh, lambda o: ("torus",), lambda o: (o["tube"], *torus_cells(o)), torus_axes),
     #: end
     #: disc
     "disc": Shape(disc_mesh),
@@ -230,6 +236,10 @@ def add_objects(collection, materials):
             if "taper" in o:
                 ob["scc_taper"] = o["taper"]
             #: end
+            #: torus
+            if "tube" in o:
+                ob["scc_tube"] = o["tube"]
+            #: end
             #: curved_p
             for name, vector in zip(("scc_x", "scc_y", "scc_z", "scc_origin"), axes.T):
                 ob[name] = tuple(map(float, vector))
@@ -273,6 +283,10 @@ def add_lamps(scene, set_up):
         #: point
         if light["type"] == "POINT":
             ob.location = light["position"]
+        #: end
+        #: spot
+        if "axis" in light:
+            ob.rotation_euler = (-mathutils.Vector(light["axis"])).to_track_quat("Z", "Y").to_euler()
         #: end
         #: directional
         if light["type"] == "SUN":

@@ -59,7 +59,7 @@ def apparent_radius(o, center, radius):
 
 
 #: end
-#: cylinder cone disc
+#: cylinder cone disc torus
 ASPECT = 8.0  # of a triangle; the sliver's length over its width multiplies Cycles' rounding error of a hit
 
 
@@ -176,6 +176,27 @@ def cylinder_axes(o):
     start, axis = np.array(o["start"]), np.subtract(o["end"], o["start"])
     first, second = frame(unit(axis))
     return o["radius"] * first, o["radius"] * second, axis, start
+
+
+#: end
+#: torus
+def torus_cells(o):
+    """Segments along the circle and around the tube, of which the apparent radius is that part."""
+    n = min(segments(o, o["center"], o["major"] * (1 + o["tube"])), 512)
+    return n, max(min(2 ** math.ceil(math.log2(n * math.sqrt(o["tube"]))), 256), 32)
+
+
+def torus_mesh(o):
+    """About the z axis, its circle of radius 1; the tube is closed by a second ring of corners at its seam."""
+    n, rows = torus_cells(o)
+    along, around = circle(n), circle(rows)[np.arange(rows + 1) % rows] * o["tube"]
+    rings = [np.column_stack((along * (1 + x), np.full(n, z))) for x, z in around]
+    return new_mesh("torus", np.concatenate(rings), band(n, rows), smooth=True)
+
+
+def torus_axes(o):
+    axis = unit(o["axis"])
+    return (*(o["major"] * np.array((*frame(axis), axis))), o["center"])
 
 
 #: end

@@ -29,6 +29,7 @@ const std::map<Diag, Case>& cases() {
                               "perspective_camera { eye = (0, 0, 5e-8), near = 1e-9, far = 1e-6 }\n";
     static const std::map<Diag, Case> rows{
         {Diag::impossible_shape, {"cylinder { from = (0, 1, 0), to = (0, 1, 0) }\n"}},
+        {Diag::thin_line, {"polyline { points = [(0, 0, 0), (1, 1, 0)] }\n"}},
         {Diag::unusable_container,
          {"implicit { field = fn(p: vec3) = p.x, within = cylinder { caps = false } }\n"}},
         {Diag::unbounded_field,
