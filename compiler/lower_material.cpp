@@ -91,8 +91,8 @@ std::pair<std::int32_t, std::vector<double>> MaterialTable::function(const lang:
     if (const auto found = functions_.find(closure.get()); found != functions_.end()) {
         return found->second;
     }
-    FunctionBuilder builder;
-    const std::vector<lang::Scalar> results = lang::trace(closure, builder, diagnostics_);
+    FunctionBuilder builder(images_);
+    const std::vector<lang::Scalar> results = lang::trace(closure, builder, diagnostics_, images_);
     std::pair<std::int32_t, std::vector<double>> entry{runtime::no_function, {}};
     if (std::all_of(results.begin(), results.end(), [](const lang::Scalar& s) { return s.is_constant(); })) {
         for (const lang::Scalar& scalar : results) {

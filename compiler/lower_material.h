@@ -1,5 +1,6 @@
 #pragma once
 
+#include "compiler/image_table.h"
 #include "compiler/ir/scene.h"
 #include "lang/check.h"
 #include "lang/diagnostic.h"
@@ -19,8 +20,8 @@ namespace scc::compiler {
 /// Gives every material value of a scene its place in the IR's table; a value used often is stored once.
 class MaterialTable {
 public:
-    MaterialTable(ir::Scene& scene, lang::Diagnostics& diagnostics)
-        : scene_(scene), diagnostics_(diagnostics) {}
+    MaterialTable(ir::Scene& scene, ImageTable* images, lang::Diagnostics& diagnostics)
+        : scene_(scene), images_(images), diagnostics_(diagnostics) {}
 
     /// `owner` names a material that has no name of its own. A null thing is the default material.
     runtime::Sides sides(const lang::Thing* material, const std::string& owner);
@@ -44,6 +45,7 @@ private:
                         const runtime::Varying<runtime::Rgb<double>>& value);
 
     ir::Scene& scene_;
+    ImageTable* images_;
     lang::Diagnostics& diagnostics_;
     std::map<const lang::Thing*, std::uint32_t> known_;
     std::map<const lang::Closure*, std::pair<std::int32_t, std::vector<double>>> functions_;

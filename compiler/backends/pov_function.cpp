@@ -133,12 +133,13 @@ double excess(const ir::Function& function, std::uint32_t node, const InputRange
         std::array<double, ir::input_count> x{};
         for (std::size_t i = 0; i < x.size(); ++i) {
             constexpr double primes[] = {0.7548776662, 0.5698402910, 0.8191725134, 0.6710436067, 0.5497004779,
-                                         0.4502995221, 0.8566748838, 0.7338918566, 0.6287067210};
+                                         0.4502995221, 0.8566748838, 0.7338918566, 0.6287067210,
+                                         0.5385972572, 0.4613935681};
             const double low = std::max(inputs[i].min, -1000.0), high = std::min(inputs[i].max, 1000.0);
             const double fraction = sample * primes[i] - std::floor(sample * primes[i]);
             x[i] = low + fraction * (high - low);
         }
-        const runtime::SurfacePoint<double> point{{x[0], x[1], x[2]}, {x[3], x[4], x[5]}, {x[6], x[7], x[8]}};
+        const runtime::SurfacePoint<double> point{{x[0], x[1], x[2]}, {x[3], x[4], x[5]}, {x[6], x[7], x[8]}, {x[9], x[10]}};
         const double value = run(program, point)[node];
         if (!std::isnan(value)) {
             largest = std::max({largest, range.min - value, value - range.max});

@@ -15,11 +15,6 @@ using runtime::Affine;
 
 namespace {
 
-std::array<std::int32_t, 6> functions_of(const runtime::Phong<double>& phong) {
-    return {phong.ambient.function,  phong.diffuse.function, phong.specular.function,
-            phong.emission.function, phong.reflect.function, phong.shininess.function};
-}
-
 /// Reflectances and emissions are colours that one can see; exponents grow further.
 constexpr double largest_color = 8;
 constexpr double largest_shininess = 1e5;
@@ -48,16 +43,9 @@ PovMaterials::PovMaterials(const ir::Scene& scene, Writer& functions, Writer& te
     });
 }
 
-bool PovMaterials::reads(std::uint32_t material, ir::Input first, ir::Input last) const {
-    const auto functions = functions_of(scene_.materials[material].phong);
-    return std::any_of(functions.begin(), functions.end(), [&](std::int32_t f) {
-        return f != runtime::no_function && scene_.functions[static_cast<std::size_t>(f)].reads(first, last);
-    });
-}
-
 PovMaterials::Use PovMaterials::use(std::uint32_t material, const ir::Object& object) {
-    const bool in_world = reads(material, ir::Input::world_x, ir::Input::world_z);
-    const bool in_object = reads(material, ir::Input::p_x, ir::Input::p_z);
+    const bool in_world = ir::material_reads(scene_, material, ir::Input::world_x, ir::Input::world_z);
+    const bool in_object = ir::material_reads(scene_, material, ir::Input::p_x, ir::Input::p_z);
     const std::string& name = scene_.materials[material].name;
     if (in_world && in_object && !(object.world_from_object == Affine<double>{})) {
         return declare(material, fmt::format("{}_of_{}", name, object.path), &object.world_from_object);
@@ -82,7 +70,7 @@ PovMaterials::Use PovMaterials::declare(std::uint32_t material, const std::strin
     painted.shininess = shininess(phong.shininess, material, world_from_object);
     Outcome varying_shininess;
     Use use{textures_.declare(name, painted, varying_shininess)};
-    use.varies = reads(material, ir::Input::p_x, ir::Input::world_z);
+    use.varies = ir::material_reads(scene_, material, ir::Input::p_x, ir::Input::world_z);
     if (varying_shininess.fidelity != Fidelity::exact) {
         note(material, "phong shininess", varying_shininess);
     }

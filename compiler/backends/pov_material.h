@@ -37,7 +37,6 @@ private:
                     const runtime::Affine<double>* world_from_object);
     std::pair<Paint, Fidelity> paint(std::int32_t function, std::string_view field, std::uint32_t material,
                                      double largest, const runtime::Affine<double>* world_from_object);
-    bool reads(std::uint32_t material, ir::Input first, ir::Input last) const;
     void note(std::uint32_t material, std::string_view feature, const Outcome& outcome);
 
     const ir::Scene& scene_;

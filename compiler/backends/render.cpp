@@ -51,6 +51,7 @@ std::shared_ptr<const OwnedScene<R>> build(const ir::Scene& scene, std::shared_p
     for (const ir::Function& function : scene.functions) {
         out.functions.push_back(program_of<R>(function));
     }
+    out.reads_uv = scene.traits.uv;
     out.camera = convert(scene.camera, R{});
     out.ambient = convert(scene.ambient, R{});
     out.background = convert(scene.background, R{});

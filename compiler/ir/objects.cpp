@@ -1,5 +1,7 @@
 #include "compiler/ir/objects.h"
 
+#include <algorithm>
+
 #include <fmt/core.h>
 
 namespace scc::compiler::ir {
@@ -22,6 +24,30 @@ std::size_t object_count(const Scene& scene) {
         count += array.rounds * array.columns.size();
     }
     return count;
+}
+
+bool material_reads(const Scene& scene, std::uint32_t material, Input first, Input last) {
+    const runtime::Phong<double>& p = scene.materials[material].phong;
+    for (const std::int32_t index : {p.ambient.function, p.diffuse.function, p.specular.function,
+                                     p.emission.function, p.reflect.function, p.shininess.function}) {
+        if (index != runtime::no_function &&
+            scene.functions[static_cast<std::size_t>(index)].reads(first, last)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+std::vector<const Image*> images_of(const Scene& scene) {
+    std::vector<const Image*> images;
+    for (const Function& function : scene.functions) {
+        for (const std::shared_ptr<const Image>& image : function.images) {
+            if (std::find(images.begin(), images.end(), image.get()) == images.end()) {
+                images.push_back(image.get());
+            }
+        }
+    }
+    return images;
 }
 
 std::string_view csg_word(runtime::CsgOp op) {

@@ -13,6 +13,12 @@ namespace scc::compiler::ir {
 
 std::size_t object_count(const Scene& scene);
 
+/// Whether a function of the material reads one of these inputs.
+bool material_reads(const Scene& scene, std::uint32_t material, Input first, Input last);
+
+/// The images of all functions, each once.
+std::vector<const Image*> images_of(const Scene& scene);
+
 /// The author's word: `union`, `intersection`, `difference`.
 std::string_view csg_word(runtime::CsgOp op);
 

@@ -46,13 +46,17 @@ void need(SceneTraits& traits, const ir::ObjectColumn& column) {
     }
 }
 
-void need(SceneTraits& traits, const runtime::Phong<double>& p, int depth) {
+void need(SceneTraits& traits, const runtime::Phong<double>& p, const ir::Scene& scene) {
     traits.specular |= is_present(p.specular);
     traits.emission |= is_present(p.emission);
-    traits.reflection |= depth > 0 && is_present(p.reflect);
+    traits.reflection |= scene.settings.depth > 0 && is_present(p.reflect);
     for (const std::int32_t function : {p.ambient.function, p.diffuse.function, p.specular.function,
                                         p.emission.function, p.reflect.function, p.shininess.function}) {
-        traits.functions |= function != runtime::no_function;
+        if (function != runtime::no_function) {
+            traits.functions = true;
+            traits.uv |= scene.functions[static_cast<std::size_t>(function)].reads(ir::Input::uv_x,
+                                                                                   ir::Input::uv_y);
+        }
     }
 }
 
@@ -95,7 +99,7 @@ std::vector<Need> needs_of(const ir::Scene& scene) {
         need_member(needs.emplace_back(SceneTraits{}, member.span).traits, member);
     }
     for (const ir::Material& material : scene.materials) {
-        need(needs.emplace_back(SceneTraits{}, material.span).traits, material.phong, scene.settings.depth);
+        need(needs.emplace_back(SceneTraits{}, material.span).traits, material.phong, scene);
     }
     for (const ir::Light& light : scene.lights) {
         SceneTraits& traits = needs.emplace_back(SceneTraits{}, light.span).traits;
