@@ -73,23 +73,26 @@ std::optional<std::array<lang::Scalar, 3>> FunctionBuilder::image(const lang::Th
     if (!found) {
         return std::nullopt;
     }
-    const auto known = std::find(images_.begin(), images_.end(), found);
-    ir::Node node{.kind = ir::Node::Kind::image};
-    node.image = static_cast<std::uint32_t>(known - images_.begin());
-    if (known == images_.end()) {
-        images_.push_back(found);
-    }
+    std::array<std::uint32_t, 2> operands{};
     for (std::size_t i = 0; i < uv.size(); ++i) {
-        node.operands[i] = uv[i].is_constant() ? constant(uv[i].value) : uv[i].symbol;
+        operands[i] = uv[i].is_constant() ? constant(uv[i].value) : uv[i].symbol;
     }
     std::array<lang::Scalar, 3> channels;
     for (std::uint8_t channel = 0; channel < 3; ++channel) {
-        node.channel = channel;
-        const std::uint32_t symbol =
-            add({3, runtime::channel_of(node.image, channel), node.operands}, node);
-        channels[channel] = {0, symbol};
+        channels[channel] = {0, look_up(found, channel, operands[0], operands[1])};
     }
     return channels;
+}
+
+std::uint32_t FunctionBuilder::look_up(const std::shared_ptr<const ir::Image>& image, std::uint8_t channel,
+                                       std::uint32_t u, std::uint32_t v) {
+    const auto known = std::find(images_.begin(), images_.end(), image);
+    ir::Node node{.kind = ir::Node::Kind::image, .channel = channel, .operands = {u, v, 0}};
+    node.image = static_cast<std::uint32_t>(known - images_.begin());
+    if (known == images_.end()) {
+        images_.push_back(image);
+    }
+    return add({3, runtime::channel_of(node.image, channel), node.operands}, node);
 }
 
 /// By squaring, which is faster than the library's power and has narrower bounds than products of the base.

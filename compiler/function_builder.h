@@ -27,6 +27,9 @@ public:
     std::optional<std::array<lang::Scalar, 3>> image(const lang::ThingPtr& image,
                                                      const std::array<lang::Scalar, 2>& uv) override;
 
+    std::uint32_t look_up(const std::shared_ptr<const ir::Image>& image, std::uint8_t channel,
+                          std::uint32_t u, std::uint32_t v);
+
     void locate(lang::Span span) override { place_ = span; }
 
     /// The function with these results; nodes that no result needs are left out.

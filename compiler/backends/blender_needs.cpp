@@ -253,6 +253,19 @@ private:
             if (function != runtime::no_function) {
                 needs_.functions[static_cast<std::size_t>(function)] = true;
                 want("function");
+                add(scene_.functions[static_cast<std::size_t>(function)]);
+            }
+        }
+    }
+
+    void add(const ir::Function& function) {
+        if (function.reads(Input::uv_x, Input::uv_y)) {
+            want("uv");
+        }
+        for (const std::shared_ptr<const ir::Image>& image : function.images) {
+            want("image");
+            if (std::find(needs_.images.begin(), needs_.images.end(), image.get()) == needs_.images.end()) {
+                needs_.images.push_back(image.get());
             }
         }
     }

@@ -20,6 +20,9 @@ constexpr std::uint32_t most_levels = 200;
 
 /// How often the operator's SDL spelling writes the operand.
 std::uint64_t occurrences(const Node& node, std::size_t operand) {
+    if (node.kind == Node::Kind::image) {
+        return 1;
+    }
     const std::string_view spelling = ir::row(node.op).sdl;
     const char placeholder[] = {'{', static_cast<char>('0' + operand), '}'};
     std::uint64_t count = 0;
@@ -30,14 +33,11 @@ std::uint64_t occurrences(const Node& node, std::size_t operand) {
     return count;
 }
 
-std::size_t arity(const Node& node) {
-    return node.kind == Node::Kind::apply ? static_cast<std::size_t>(ir::row(node.op).arity) : 0;
-}
-
 } // namespace
 
-PovExpression::PovExpression(const ir::Function& function, std::uint32_t result)
-    : function_(function), result_(result), needed_(result + 1), shared_(result + 1), level_(result + 1),
+PovExpression::PovExpression(const ir::Function& function, std::uint32_t result,
+                             std::vector<const PovImages::Declared*> images)
+    : function_(function), images_(std::move(images)), result_(result), needed_(result + 1), shared_(result + 1), level_(result + 1),
       last_use_(result + 1) {
     needed_[result] = true;
     for (std::uint32_t i = result + 1; i-- > 0;) {
@@ -87,7 +87,7 @@ void PovExpression::choose_shared() {
     uses[result_] = 1;
     for (std::uint32_t i = result_ + 1; i-- > 0;) {
         const Node& node = function_.nodes[i];
-        if (!needed_[i] || node.kind != Node::Kind::apply) {
+        if (!needed_[i] || arity(node) == 0) {
             shared_[i] = false;
             continue;
         }
@@ -138,6 +138,9 @@ bool PovExpression::fits() const {
 
 std::string PovExpression::input(ir::Input input) const {
     static constexpr std::string_view axes[] = {"x", "y", "z"};
+    if (input >= ir::Input::uv_x) {
+        return std::string(axes[static_cast<std::size_t>(input) - static_cast<std::size_t>(ir::Input::uv_x)]);
+    }
     const std::string_view axis = axes[static_cast<std::size_t>(input) % 3];
     const bool second = input >= ir::Input::world_x && reads_p();
     return fmt::format("{}{}", second ? "w" : "", axis);
@@ -154,6 +157,8 @@ std::string PovExpression::applied(std::uint32_t index) const {
         return node.constant < 0 ? fmt::format("({})", number(node.constant)) : number(node.constant);
     case Node::Kind::input:
         return input(node.input);
+    case Node::Kind::image:
+        return images_[node.image]->channel(node.channel, text(node.operands[0]), text(node.operands[1]));
     case Node::Kind::apply:
         break;
     }

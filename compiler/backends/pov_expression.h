@@ -1,5 +1,6 @@
 #pragma once
 
+#include "compiler/backends/pov_image.h"
 #include "compiler/ir/function.h"
 #include "compiler/writer.h"
 
@@ -11,15 +12,18 @@
 namespace scc::compiler {
 
 /// One result of a per-point function as SDL functions of x, y, z: the object-space point, or the world point
-/// where only that is read; where both are read, the world point follows as wx, wy, wz. SDL has no local
+/// where only that is read; where both are read, the world point follows as wx, wy, wz. Of a function that reads
+/// uv, x and y are u and v. SDL has no local
 /// variables: what the result needs more than once is a parameter of a further function.
 class PovExpression {
 public:
-    /// The result is a node of the function; it does not read n.
-    PovExpression(const ir::Function& function, std::uint32_t result);
+    /// The result is a node of the function; it does not read n. `images` are the function's.
+    PovExpression(const ir::Function& function, std::uint32_t result,
+                  std::vector<const PovImages::Declared*> images);
 
     bool reads_p() const { return reads(ir::Input::p_x, ir::Input::p_z); }
     bool reads_world() const { return reads(ir::Input::world_x, ir::Input::world_z); }
+    bool reads_uv() const { return reads(ir::Input::uv_x, ir::Input::uv_y); }
     bool reads_normal() const { return reads(ir::Input::n_x, ir::Input::n_z); }
     /// An operator that POV-Ray does not have, or "".
     std::string_view unspoken() const;
@@ -40,6 +44,7 @@ private:
     std::string list(std::uint32_t level, std::uint32_t seen_from) const;
 
     const ir::Function& function_;
+    std::vector<const PovImages::Declared*> images_;
     std::uint32_t result_;
     std::vector<bool> needed_, shared_;   ///< per node
     std::vector<std::uint32_t> level_;    ///< per node: the first function that can calculate it

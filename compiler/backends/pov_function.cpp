@@ -174,9 +174,14 @@ const PovFunctions::Declared& PovFunctions::declare(std::int32_t index, std::uin
         return declared;
     }
     const ir::Function& function = functions_[static_cast<std::size_t>(index)];
-    const PovExpression expression(function, node);
+    std::vector<const PovImages::Declared*> images;
+    for (const std::shared_ptr<const ir::Image>& image : function.images) {
+        images.push_back(&images_.declare(*image));
+    }
+    const PovExpression expression(function, node, std::move(images));
     declared.reads_p = expression.reads_p();
     declared.reads_world = expression.reads_world();
+    declared.reads_uv = expression.reads_uv();
     if (expression.reads_normal()) {
         declared.obstacle = "POV-Ray's functions cannot read the normal n";
     } else if (!expression.unspoken().empty()) {
@@ -197,8 +202,11 @@ PovFunctions::Scaled PovFunctions::scaled(std::int32_t index, std::uint32_t node
     const Range cut{std::clamp(whole.min, -place.largest, place.largest),
                     std::clamp(whole.max, -place.largest, place.largest)};
     const Declared& declared = declare(index, node, suffix);
-    if (declared.name.empty()) {
-        outcome = {Fidelity::dropped, fmt::format("drawn with its mean value: {}", declared.obstacle), 0};
+    const std::string_view obstacle = declared.reads_uv && !place.uv_obstacle.empty() ? place.uv_obstacle
+                                      : declared.name.empty()                          ? declared.obstacle
+                                                                                       : "";
+    if (!obstacle.empty()) {
+        outcome = {Fidelity::dropped, fmt::format("drawn with its mean value: {}", obstacle), 0};
         const double middle = std::clamp((cut.min + cut.max) / 2, 0.0, 1.0);
         return {"", middle, middle};
     }
@@ -232,6 +240,13 @@ std::pair<Paint, Outcome> PovFunctions::paint(std::int32_t index, const Place& p
     Paint paint;
     paint.function = index;
     Outcome outcome{Fidelity::exact, "as an SDL function", 0};
+    for (const std::shared_ptr<const ir::Image>& image : function.images) {
+        if (const double error = images_.declare(*image).error; error > 0) {
+            outcome = {Fidelity::approximated,
+                       "as an SDL function; bound of what 16 bits make of an image's values",
+                       std::max(outcome.bound, error)};
+        }
+    }
     std::vector<double> middle;
     if (const auto one = one_variable(function)) {
         const Scaled t = scaled(index, one->t, "", place, outcome);

@@ -2,6 +2,7 @@
 
 #include "compiler/backends/function_range.h"
 #include "compiler/backends/ledger.h"
+#include "compiler/backends/pov_image.h"
 #include "compiler/ir/scene.h"
 #include "compiler/writer.h"
 
@@ -40,8 +41,8 @@ struct Outcome {
 /// Per-point functions as SDL functions, each declared when it is first used.
 class PovFunctions {
 public:
-    PovFunctions(const std::vector<ir::Function>& functions, Writer& out)
-        : functions_(functions), out_(out) {}
+    PovFunctions(const std::vector<ir::Function>& functions, ExportFiles& files, Writer& out)
+        : functions_(functions), images_(files, out), out_(out) {}
 
     /// Where a function is used.
     struct Place {
@@ -49,13 +50,15 @@ public:
         double largest = 0; ///< values beyond are cut where the function's own bounds are wider
         /// From a texture's x, y, z, which are the function's p; null: they are its world point as well.
         const runtime::Affine<double>* world_from_object = nullptr;
+        /// Why a function that reads uv cannot be written here; empty: its texture is mapped by uv.
+        std::string_view uv_obstacle{};
     };
     std::pair<Paint, Outcome> paint(std::int32_t function, const Place& place);
 
     struct Declared {
         std::string name; ///< empty: it cannot be written, for this reason:
         std::string_view obstacle;
-        bool reads_p = false, reads_world = false;
+        bool reads_p = false, reads_world = false, reads_uv = false;
     };
     /// The field of an implicit surface, as a function of x, y, z.
     const Declared& field(std::int32_t function) {
@@ -73,6 +76,7 @@ private:
                   Outcome& outcome);
 
     const std::vector<ir::Function>& functions_;
+    PovImages images_;
     Writer& out_;
     Identifiers names_{"f_"};
     std::map<std::pair<std::int32_t, std::uint32_t>, Declared> declared_;

@@ -18,6 +18,7 @@ namespace {
 /// Reflectances and emissions are colours that one can see; exponents grow further.
 constexpr double largest_color = 8;
 constexpr double largest_shininess = 1e5;
+constexpr std::string_view uv_and_point = "POV-Ray maps a texture by uv or by the point, and this material reads both";
 /// Stands for one that POV-Ray cannot calculate.
 constexpr double usual_shininess = 32;
 
@@ -29,8 +30,9 @@ void include(InputRanges& all, const InputRanges& more) {
 
 } // namespace
 
-PovMaterials::PovMaterials(const ir::Scene& scene, Writer& functions, Writer& textures, Ledger& ledger)
-    : scene_(scene), functions_(scene.functions, functions), textures_(textures), ledger_(ledger),
+PovMaterials::PovMaterials(const ir::Scene& scene, ExportFiles& files, Writer& functions, Writer& textures,
+                           Ledger& ledger)
+    : scene_(scene), functions_(scene.functions, files, functions), textures_(textures), ledger_(ledger),
       ranges_(scene.materials.size()), noted_(scene.materials.size()) {
     constexpr double inf = std::numeric_limits<double>::infinity();
     for (InputRanges& ranges : ranges_) {
@@ -71,6 +73,7 @@ PovMaterials::Use PovMaterials::declare(std::uint32_t material, const std::strin
     Outcome varying_shininess;
     Use use{textures_.declare(name, painted, varying_shininess)};
     use.varies = ir::material_reads(scene_, material, ir::Input::p_x, ir::Input::world_z);
+    use.by_uv = !use.varies && ir::material_reads(scene_, material, ir::Input::uv_x, ir::Input::uv_y);
     if (varying_shininess.fidelity != Fidelity::exact) {
         note(material, "phong shininess", varying_shininess);
     }
@@ -104,7 +107,9 @@ Paint PovMaterials::shininess(const runtime::Varying<double>& value, std::uint32
 std::pair<Paint, Fidelity> PovMaterials::paint(std::int32_t function, std::string_view field,
                                                std::uint32_t material, double largest,
                                                const Affine<double>* world_from_object) {
-    auto [result, outcome] = functions_.paint(function, {ranges_[material], largest, world_from_object});
+    const bool reads_point = ir::material_reads(scene_, material, ir::Input::p_x, ir::Input::world_z);
+    auto [result, outcome] = functions_.paint(
+        function, {ranges_[material], largest, world_from_object, reads_point ? uv_and_point : ""});
     outcome.how = fmt::format("function `{}`: {}", scene_.functions[static_cast<std::size_t>(function)].name,
                               outcome.how);
     note(material, fmt::format("phong {}", field), outcome);

@@ -128,7 +128,9 @@ RendererReport run_exported(const Subject& subject, const std::string& name, int
     const compiler::Exporter& exporter = *compiler::find_exporter(name);
     compiler::Ledger ledger;
     const std::filesystem::path file = subject.folder.path() / ("scene" + std::string(exporter.extension));
-    host::replace_file(file.string(), exporter.emit(subject.loaded.scene, ledger));
+    compiler::ExportFiles beside{.stem = file.stem().string()};
+    host::replace_file(file.string(), exporter.emit(subject.loaded.scene, ledger, beside));
+    write_beside(subject.folder.path(), beside);
     result.ledger = ledger_rows(ledger, subject.loaded.sources);
 
     validation::RenderJob job;

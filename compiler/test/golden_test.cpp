@@ -60,7 +60,7 @@ TEST_P(Golden, BackendsEmitTheReviewedText) {
     expect_golden(".ir", print(c.scene));
     expect_golden(".cpp", emit_cpp(c.scene, Precision::full, Numbers::in_code, GetParam() + ".values").source);
     Ledger ledger;
-    expect_golden(".pov", emit_pov(c.scene, ledger));
+    expect_golden(".pov", test::emit_pov(c.scene, ledger));
 }
 
 } // namespace

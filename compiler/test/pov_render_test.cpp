@@ -35,7 +35,7 @@ protected:
     /// With the exposure that keeps the brightest pixel below 1, undone afterwards.
     Image theirs(const ir::Scene& scene, double exposure) {
         Ledger ledger;
-        test::save(folder_ / "scene.pov", emit_pov(scene, ledger));
+        test::save(folder_ / "scene.pov", test::emit_pov(scene, ledger));
         const std::string picture = (folder_ / "scene.png").string();
         const std::string command =
             "povray +I" + (folder_ / "scene.pov").string() + " +O" + picture + " +W" +
