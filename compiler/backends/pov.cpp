@@ -324,7 +324,7 @@ private:
     void declare_mesh_of(const ir::Object& object) {
         const auto* mesh = std::get_if<runtime::Mesh<double>>(&object.shape);
         if (mesh != nullptr && declared_meshes_.insert(mesh->mesh).second) {
-            declare_mesh(scene_.meshes[mesh->mesh], mesh_names_[mesh->mesh], meshes_);
+            declare_mesh(scene_.meshes[mesh->mesh], mesh_names_[mesh->mesh], scene_.traits.uv, meshes_);
         }
     }
 

@@ -5,6 +5,7 @@
 #include "compiler/writer.h"
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,9 +18,13 @@ namespace scc::compiler {
 /// variables: what the result needs more than once is a parameter of a further function.
 class PovExpression {
 public:
-    /// The result is a node of the function; it does not read n. `images` are the function's.
-    PovExpression(const ir::Function& function, std::uint32_t result,
-                  std::vector<const PovImages::Declared*> images);
+    /// What stands for operators and images that SDL does not have.
+    struct Words {
+        std::vector<const PovImages::Declared*> images;  ///< the function's
+        std::map<std::uint32_t, std::string> functions; ///< of three numbers, by their nodes
+    };
+    /// The result is a node of the function; it does not read n.
+    PovExpression(const ir::Function& function, std::uint32_t result, const Words& words);
 
     bool reads_p() const { return reads(ir::Input::p_x, ir::Input::p_z); }
     bool reads_world() const { return reads(ir::Input::world_x, ir::Input::world_z); }
@@ -37,6 +42,7 @@ private:
     bool reads(ir::Input first, ir::Input last) const;
     void choose_shared();
     void assign_levels();
+    std::uint64_t occurrences(std::uint32_t node, std::size_t operand) const;
     std::string text(std::uint32_t node) const;
     std::string applied(std::uint32_t node) const;
     std::string input(ir::Input input) const;
@@ -44,7 +50,7 @@ private:
     std::string list(std::uint32_t level, std::uint32_t seen_from) const;
 
     const ir::Function& function_;
-    std::vector<const PovImages::Declared*> images_;
+    const Words& words_;
     std::uint32_t result_;
     std::vector<bool> needed_, shared_;   ///< per node
     std::vector<std::uint32_t> level_;    ///< per node: the first function that can calculate it

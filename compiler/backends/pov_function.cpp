@@ -148,6 +148,44 @@ double excess(const ir::Function& function, std::uint32_t node, const InputRange
     return std::min(largest, 1e30);
 }
 
+/// Which nodes give whole numbers only.
+std::vector<bool> are_whole(const ir::Function& function) {
+    std::vector<bool> whole;
+    for (const Node& node : function.nodes) {
+        bool is_whole = node.kind == Node::Kind::constant && node.constant == std::floor(node.constant);
+        if (node.kind == Node::Kind::apply) {
+            const auto operand = [&](std::size_t k) { return whole[node.operands[k]]; };
+            switch (node.op) {
+            case Op::floor:
+            case Op::ceil:
+                is_whole = true;
+                break;
+            case Op::neg:
+            case Op::abs:
+            case Op::square:
+                is_whole = operand(0);
+                break;
+            case Op::add:
+            case Op::sub:
+            case Op::mul:
+            case Op::mod:
+            case Op::min:
+            case Op::max:
+                is_whole = operand(0) && operand(1);
+                break;
+            case Op::select:
+                is_whole = operand(1) && operand(2);
+                break;
+            default:
+                is_whole = is_truth(node.op);
+                break;
+            }
+        }
+        whole.push_back(is_whole);
+    }
+    return whole;
+}
+
 std::string map_point(const runtime::Affine<double>& a) {
     static constexpr std::string_view axes[] = {"x", "y", "z"};
     std::string result;
@@ -166,6 +204,50 @@ std::string map_point(const runtime::Affine<double>& a) {
 
 } // namespace
 
+void PovFunctions::cover(std::int32_t index, const InputRanges& inputs) {
+    std::optional<InputRanges>& all = inputs_[static_cast<std::size_t>(index)];
+    if (!all) {
+        all = inputs;
+        return;
+    }
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        (*all)[i] = {std::min((*all)[i].min, inputs[i].min), std::max((*all)[i].max, inputs[i].max)};
+    }
+}
+
+const PovExpression::Words& PovFunctions::words(std::int32_t index) {
+    std::optional<PovExpression::Words>& words = words_[static_cast<std::size_t>(index)];
+    if (words) {
+        return *words;
+    }
+    words.emplace();
+    const ir::Function& function = functions_[static_cast<std::size_t>(index)];
+    for (const std::shared_ptr<const ir::Image>& image : function.images) {
+        words->images.push_back(&images_.declare(*image));
+    }
+    const std::vector<bool> whole = are_whole(function);
+    std::vector<Range> ranges;
+    for (std::uint32_t i = 0; i < function.nodes.size(); ++i) {
+        const Node& node = function.nodes[i];
+        if (node.kind != Node::Kind::apply || (node.op != Op::noise && node.op != Op::random)) {
+            continue;
+        }
+        const auto& [a, b, c] = node.operands;
+        if (node.op == Op::random && !(whole[a] && whole[b] && whole[c])) {
+            continue;
+        }
+        if (ranges.empty()) {
+            ranges = node_ranges(function, inputs_[static_cast<std::size_t>(index)].value_or(InputRanges{}));
+        }
+        const std::string name = lattices_.declare(fmt::format("{}_{}", function.name, row(node.op).name), node.op,
+                                                   {ranges[a], ranges[b], ranges[c]});
+        if (!name.empty()) {
+            words->functions.emplace(i, name);
+        }
+    }
+    return *words;
+}
+
 const PovFunctions::Declared& PovFunctions::declare(std::int32_t index, std::uint32_t node,
                                                     std::string_view suffix) {
     const auto [entry, is_new] = declared_.try_emplace({index, node});
@@ -174,19 +256,16 @@ const PovFunctions::Declared& PovFunctions::declare(std::int32_t index, std::uin
         return declared;
     }
     const ir::Function& function = functions_[static_cast<std::size_t>(index)];
-    std::vector<const PovImages::Declared*> images;
-    for (const std::shared_ptr<const ir::Image>& image : function.images) {
-        images.push_back(&images_.declare(*image));
-    }
-    const PovExpression expression(function, node, std::move(images));
+    const PovExpression expression(function, node, words(index));
     declared.reads_p = expression.reads_p();
     declared.reads_world = expression.reads_world();
     declared.reads_uv = expression.reads_uv();
     if (expression.reads_normal()) {
         declared.obstacle = "POV-Ray's functions cannot read the normal n";
     } else if (!expression.unspoken().empty()) {
-        declared.obstacle = expression.unspoken() == "random" ? "POV-Ray's functions have no `random`"
-                                                              : "POV-Ray's functions have another `noise`";
+        declared.obstacle = fmt::format("its `{}` would need a table that is unbounded or has more than {} points{}",
+                                        expression.unspoken(), PovLattices::most_points,
+                                        expression.unspoken() == "random" ? ", or is not that of whole numbers" : "");
     } else if (!expression.fits()) {
         declared.obstacle = "it needs more parameters or deeper nesting than POV-Ray's functions have";
     } else {
@@ -240,6 +319,11 @@ std::pair<Paint, Outcome> PovFunctions::paint(std::int32_t index, const Place& p
     Paint paint;
     paint.function = index;
     Outcome outcome{Fidelity::exact, "as an SDL function", 0};
+    if (!words(index).functions.empty()) {
+        outcome = {Fidelity::approximated,
+                   "as an SDL function, `noise` and `random` as tables of 32 bits; bound of one of their values",
+                   PovLattices::error};
+    }
     for (const std::shared_ptr<const ir::Image>& image : function.images) {
         if (const double error = images_.declare(*image).error; error > 0) {
             outcome = {Fidelity::approximated,

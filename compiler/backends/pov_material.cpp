@@ -1,6 +1,7 @@
 #include "compiler/backends/pov_material.h"
 
 #include "compiler/backends/pov_frame.h"
+#include "compiler/backends/pov_shape.h"
 #include "compiler/ir/objects.h"
 
 #include <fmt/core.h>
@@ -42,6 +43,21 @@ PovMaterials::PovMaterials(const ir::Scene& scene, ExportFiles& files, Writer& f
         const InputRanges ranges = input_ranges(object, scene);
         include(ranges_[object.sides.front], ranges);
         include(ranges_[object.sides.back], ranges);
+        for (const std::uint32_t material : {object.sides.front, object.sides.back}) {
+            for (const std::int32_t function : ir::functions_of(scene.materials[material].phong)) {
+                if (function != runtime::no_function) {
+                    functions_.cover(function, ranges);
+                }
+            }
+        }
+        if (const auto* implicit = std::get_if<runtime::Implicit<double>>(&object.shape)) {
+            const runtime::Bounds<double> box = pov_field_box(implicit->within);
+            InputRanges inputs;
+            inputs[0] = {box.min.x, box.max.x};
+            inputs[1] = {box.min.y, box.max.y};
+            inputs[2] = {box.min.z, box.max.z};
+            functions_.cover(implicit->field, inputs);
+        }
     });
 }
 

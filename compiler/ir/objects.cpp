@@ -1,8 +1,8 @@
 #include "compiler/ir/objects.h"
 
-#include <algorithm>
-
 #include <fmt/core.h>
+
+#include <algorithm>
 
 namespace scc::compiler::ir {
 
@@ -26,10 +26,13 @@ std::size_t object_count(const Scene& scene) {
     return count;
 }
 
+std::array<std::int32_t, 6> functions_of(const runtime::Phong<double>& p) {
+    return {p.ambient.function,  p.diffuse.function, p.specular.function,
+            p.emission.function, p.reflect.function, p.shininess.function};
+}
+
 bool material_reads(const Scene& scene, std::uint32_t material, Input first, Input last) {
-    const runtime::Phong<double>& p = scene.materials[material].phong;
-    for (const std::int32_t index : {p.ambient.function, p.diffuse.function, p.specular.function,
-                                     p.emission.function, p.reflect.function, p.shininess.function}) {
+    for (const std::int32_t index : functions_of(scene.materials[material].phong)) {
         if (index != runtime::no_function &&
             scene.functions[static_cast<std::size_t>(index)].reads(first, last)) {
             return true;
