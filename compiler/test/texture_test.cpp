@@ -258,6 +258,25 @@ TEST_F(Textures, OnMeshesPovReadsUvOrThePoint) {
     EXPECT_EQ(ledger_of("s.p.x * q(s.uv)", text), 1);
 }
 
+TEST_F(Textures, NoiseWithoutBoundsIsDroppedForPov) {
+    const auto dropped = [&](const std::string& shape) {
+        const Loaded loaded = load_scene(view + "fn f(s: surface) -> color = rgb(1, 1, 1) * noise(s.p * 3)\n" + shape);
+        EXPECT_EQ(messages(loaded), "");
+        ExportFiles files{.stem = "out"};
+        Ledger ledger;
+        emit_pov(loaded.scene, ledger, files);
+        const bool has_table = !files.files.empty();
+        const bool is_dropped = std::any_of(ledger.begin(), ledger.end(), [](const LedgerEntry& entry) {
+            return entry.fidelity == Fidelity::dropped;
+        });
+        EXPECT_NE(has_table, is_dropped);
+        return is_dropped;
+    };
+    EXPECT_FALSE(dropped("sphere { material = phong { diffuse = f } }\n"));
+    EXPECT_TRUE(dropped("plane { material = phong { diffuse = f } }\n"));
+    EXPECT_TRUE(dropped("sphere { radius = 1000, material = phong { diffuse = f } }\n"));
+}
+
 TEST_F(Textures, ABlenderScriptHoldsThem) {
     save_quarters();
     const Loaded loaded =
