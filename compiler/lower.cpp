@@ -79,9 +79,9 @@ bool has_path_in_name(const Thing& thing) {
 
 class ObjectLowering {
 public:
-    ObjectLowering(const lang::Module& module, const LowerOptions& options, ir::Scene& scene,
-                   lang::Diagnostics& diagnostics)
-        : options_(options), scene_(scene), diagnostics_(diagnostics), materials_(scene, options.images, diagnostics),
+    ObjectLowering(const lang::Module& module, const LowerOptions& options, MaterialTable& materials,
+                   ir::Scene& scene, lang::Diagnostics& diagnostics)
+        : options_(options), scene_(scene), diagnostics_(diagnostics), materials_(materials),
           paths_may_meet_(std::any_of(module.items.begin(), module.items.end(),
                                       [](const lang::ThingPtr& item) { return has_path_in_name(*item); })) {}
 
@@ -138,7 +138,7 @@ private:
     const LowerOptions& options_;
     ir::Scene& scene_;
     lang::Diagnostics& diagnostics_;
-    MaterialTable materials_;
+    MaterialTable& materials_;
     using MeshKey = std::tuple<std::filesystem::path, std::string, MeshNormals, bool>; ///< folder, name
     std::map<MeshKey, std::optional<std::uint32_t>> meshes_;
     std::set<std::string> mesh_names_;
@@ -720,10 +720,18 @@ std::string ObjectLowering::unique_path(const std::string& wanted) {
 ir::Scene lower(const lang::Module& module, const LowerOptions& options, lang::Diagnostics& diagnostics) {
     ir::Scene scene;
     scene.name = options.name;
-    lower_settings(module, scene, diagnostics);
-    ObjectLowering(module, options, scene, diagnostics).add_all(module.items, "", {}, nullptr);
+    const lang::Spectrum& illuminant = illuminant_of(module);
+    const Rendition rec709 = Rendition::rec709(illuminant);
+    lower_settings(module, rec709, scene, diagnostics);
+    MaterialTable materials(scene, rec709, options.images, diagnostics);
+    ObjectLowering(module, options, materials, scene, diagnostics).add_all(module.items, "", {}, nullptr);
     lower_camera(module, options, scene, diagnostics);
-    lower_lights(module, scene, diagnostics);
+    lower_lights(module, rec709, scene, diagnostics);
+    if (materials.has_spectra() || view_has_spectra(module)) {
+        const std::vector<Rendition> bands = Rendition::bands(illuminant);
+        materials.add_bands(bands);
+        add_view_bands(module, bands, scene);
+    }
     return scene;
 }
 

@@ -383,7 +383,8 @@ std::string value_of(std::string_view expression) {
 }
 
 std::string functions_text() {
-    std::string text = "## Functions\n\nArguments are given by position.\n\n";
+    std::string text = "## Functions\n\nArguments are given by position, or by name: `mix(a = 1, b = 2, t = "
+                       "0.5)`. The list functions take them by position.\n\n";
     for (const lang::FunctionDoc& row : lang::function_docs()) {
         text += fmt::format("### {}\n\n", row.name);
         for (const std::string& signature : row.signatures) {

@@ -1,5 +1,6 @@
 #include "compiler/schema.h"
 
+#include "lang/spectrum.h"
 #include "runtime/field.h"
 #include "runtime/shapes/list.h"
 
@@ -369,8 +370,16 @@ Constructor world() {
                         .default_value = text("m"),
                         .choices = {"mm", "cm", "m", "km", "inch"},
                         .doc = "what 1 stands for, for lengths with a suffix"},
-                       unsupported("observer", TypeKind::string),
-                       unsupported("illuminant", TypeKind::string)}};
+                       {.name = "observer",
+                        .type = TypeKind::string,
+                        .default_value = text("cie1931"),
+                        .choices = {"cie1931"},
+                        .doc = "whose eye turns spectra into colours: the standard one of 2 degrees"},
+                       {.name = "illuminant",
+                        .type = TypeKind::string,
+                        .default_value = text("d65"),
+                        .choices = lang::illuminant_names(),
+                        .doc = "the spectrum of light whose colour is rgb(1, 1, 1)"}}};
 }
 
 Constructor render() {

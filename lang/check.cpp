@@ -91,8 +91,8 @@ std::optional<std::string> evaluate_name(std::shared_ptr<const ast::File> file, 
 
 namespace {
 
-std::vector<Scalar> trace_with(const Value& argument, const ClosurePtr& function, SymbolBuilder& builder,
-                               Diagnostics& diagnostics, ImageSource* images) {
+Components trace_with(const Value& argument, const ClosurePtr& function, SymbolBuilder& builder,
+                      Diagnostics& diagnostics, ImageSource* images) {
     RunReport report;
     Evaluator evaluator({}, report, &builder, images);
     const Span span = span_of(*function);
@@ -105,13 +105,13 @@ std::vector<Scalar> trace_with(const Value& argument, const ClosurePtr& function
         }
     }
     report.flush(diagnostics);
-    return {parts.v.begin(), parts.v.begin() + parts.count};
+    return parts;
 }
 
 } // namespace
 
-std::vector<Scalar> trace(const ClosurePtr& function, SymbolBuilder& builder, Diagnostics& diagnostics,
-                          ImageSource* images) {
+Components trace(const ClosurePtr& function, SymbolBuilder& builder, Diagnostics& diagnostics,
+                 ImageSource* images) {
     return trace_with({SurfaceValue{}}, function, builder, diagnostics, images);
 }
 
@@ -122,7 +122,8 @@ std::vector<Scalar> trace_at_point(const ClosurePtr& function, SymbolBuilder& bu
     for (std::size_t i = 0; i < names.size(); ++i) {
         point.v[i] = {0, builder.input(names[i])};
     }
-    return trace_with({point}, function, builder, diagnostics, images);
+    const Components parts = trace_with({point}, function, builder, diagnostics, images);
+    return {parts.v.begin(), parts.v.begin() + parts.count};
 }
 
 std::string_view name_of(const Closure& function) {

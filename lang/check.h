@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lang/ast.h"
+#include "lang/components.h"
 #include "lang/diagnostic.h"
 #include "lang/image_source.h"
 #include "lang/importer.h"
@@ -75,12 +76,12 @@ Module check(std::shared_ptr<const ast::File> file, const Schema& schema,
              const EvaluationLimits& limits = {}, Importer* importer = nullptr,
              std::optional<std::int64_t> frame = {}, ImageSource* images = nullptr);
 
-/// Runs a per-point function on an unknown surface and hands every operation to the builder. Returns one
-/// scalar for a number, three for a colour or vector; constant where the function does not depend on the
+/// Runs a per-point function on an unknown surface and hands every operation to the builder. Returns the
+/// number's, colour's or vector's components; constant where the function does not depend on the
 /// surface. What a per-point function may not do (recursion, shapes, unknown loop bounds) is reported, and
 /// the result is empty.
-std::vector<Scalar> trace(const ClosurePtr& function, SymbolBuilder& builder, Diagnostics& diagnostics,
-                          ImageSource* images = nullptr);
+Components trace(const ClosurePtr& function, SymbolBuilder& builder, Diagnostics& diagnostics,
+                 ImageSource* images = nullptr);
 /// The same for a function of a point, which is the builder's p.x p.y p.z.
 std::vector<Scalar> trace_at_point(const ClosurePtr& function, SymbolBuilder& builder,
                                    Diagnostics& diagnostics, ImageSource* images = nullptr);

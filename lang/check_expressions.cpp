@@ -137,9 +137,7 @@ Typed Checker::check(const ast::NameRef& node, const ast::Expr& expr, const Plac
 }
 
 Typed Checker::unknown_name(const ast::NameRef& node, Span span, const Place& place) {
-    if (is_unsupported_name(node.name)) {
-        not_supported(span, node.name);
-    } else if (schema_.find(node.name)) {
+    if (schema_.find(node.name)) {
         diagnostics_.report(Diag::bare_constructor, span, node.name).suggest(span, node.name + " { }");
     } else if (is_statement(node.name)) {
         diagnostics_.report(Diag::misplaced_statement, span, node.name);

@@ -36,6 +36,9 @@ Value Evaluator::run(const code::BuiltinCall& node, Span span, const FramePtr& f
                    ? depends_on_surface(span, "this transform", "transforms are known before a ray is cast")
                    : depends_on_surface(span, "this argument", "this function takes what is known");
     }
+    if (!node.overload->takes_spectra && std::any_of(arguments.begin(), arguments.end(), has_spectra)) {
+        return refuse_spectra(span, "this function");
+    }
     locate(span);
     BuiltinRun run{math_, report_, span};
     return node.overload->run(run, arguments);
@@ -64,6 +67,10 @@ Value Evaluator::run(const code::ListCall& node, Span span, const FramePtr& fram
 Value Evaluator::sum(const std::vector<Value>& list, const Value& zero, Span span) {
     Value total = list.empty() ? zero : list[0];
     for (std::size_t i = 1; i < list.size() && step(span); ++i) {
+        if (has_spectra(total) &&
+            !takes_spectra(ast::BinaryOp::add, components(total), components(list[i]))) {
+            return refuse_spectra(span, "so long a sum");
+        }
         total = binary(math_, ast::BinaryOp::add, total, list[i]);
     }
     return stopped_ ? failed() : total;

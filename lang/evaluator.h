@@ -69,6 +69,8 @@ private:
     bool recording() const { return recording_ != nullptr; }
     bool has_unknowns() const { return math_.builder() != nullptr; }
     void locate(Span span);
+    /// Says that colours with spectra do not go there.
+    Value refuse_spectra(Span span, std::string_view what);
     Value depends_on_surface(Span span, std::string_view what, std::string_view rule);
 
     // eval_expressions.cpp

@@ -2,6 +2,7 @@
 
 #include "lang/ast.h"
 #include "lang/source.h"
+#include "lang/spectrum.h"
 #include "lang/type.h"
 
 #include <array>
@@ -54,8 +55,17 @@ struct Vec2Value {
 struct Vec3Value {
     std::array<Scalar, 3> v;
 };
+/// A part of a colour: a spectrum as often as the factor says.
+struct SpectralTerm {
+    std::shared_ptr<const Spectrum> spectrum;
+    Scalar factor;
+};
+/// Null where a colour has no spectrum. What is known stands in one term, whose factor is 1.
+using SpectralPart = std::shared_ptr<const std::vector<SpectralTerm>>;
+/// The sum of a plain colour and spectra.
 struct ColorValue {
     std::array<Scalar, 3> v; ///< linear light, Rec.709 primaries
+    SpectralPart spectral{};
 };
 /// An affine map of column vectors: x' = m[row][0..2] . x + m[row][3].
 struct TransformValue {

@@ -1,5 +1,6 @@
 #include "compiler/backends/blender_ledger.h"
 
+#include "compiler/backends/spectra.h"
 #include "compiler/ir/objects.h"
 
 #include <fmt/core.h>
@@ -226,6 +227,7 @@ private:
 
 void record_blender(const ir::Scene& scene, const BlenderNeeds& needs, Ledger& ledger) {
     Recorder(scene, needs, ledger).record();
+    record_spectra(scene, ledger);
 }
 
 } // namespace scc::compiler

@@ -191,6 +191,10 @@ private:
     template <class T>
     void table(const std::string& row_type, const std::string& name, const std::vector<T>& rows);
     void read_member(const std::string& name);
+    bool has_bands() const { return !scene_.bands.empty(); }
+    void colors();
+    template <class T>
+    void colored_table(const std::string& row_type, const std::string& name, const std::vector<T>& rows);
     void traits();
     void primitives();
     std::string node_spelling(const ir::Function& function, const ir::Node& node, std::string_view point);
@@ -216,6 +220,7 @@ private:
     std::vector<std::string> reads_; // statements of `load`, in the order of the values
     std::vector<R> function_constants_;
     std::vector<const ir::Image*> images_ = ir::images_of(scene_);
+    std::vector<std::string> colored_; // tables of which each band has its own
     Writer out_;
 };
 
@@ -409,16 +414,8 @@ void Emitter<R>::scene_type() {
     out_.line("using R = {};", real);
     traits();
     primitives();
-    table("Phong<R>", "materials", materials_of<R>(scene_));
-    if (scene_.traits.point_lights || any_scene_) {
-        table("PointLight<R>", "point_lights", lights_of<runtime::PointLight, R>(scene_));
-    }
-    if (scene_.traits.directional_lights || any_scene_) {
-        table("DirectionalLight<R>", "directional_lights", lights_of<runtime::DirectionalLight, R>(scene_));
-    }
+    colors();
     member("Camera<R>", "camera", convert(scene_.camera, R{}));
-    member("Rgb<R>", "ambient", convert(scene_.ambient, R{}));
-    member("Rgb<R>", "background", convert(scene_.background, R{}));
     material_functions(3, "Rgb<L>", "color_function");
     material_functions(1, "L", "number_function");
     field_functions();
@@ -434,6 +431,58 @@ void Emitter<R>::scene_type() {
     }
     out_.dedent();
     out_.raw_line("};");
+}
+
+/// Materials, lights and what surrounds the scene. Of a scene with spectra, those of the group of wavelengths
+/// that `take_band` was called for.
+template <class R>
+void Emitter<R>::colors() {
+    colored_table("Phong<R>", "materials", materials_of<R>(scene_));
+    if (scene_.traits.point_lights || any_scene_) {
+        colored_table("PointLight<R>", "point_lights", lights_of<runtime::PointLight, R>(scene_));
+    }
+    if (scene_.traits.directional_lights || any_scene_) {
+        colored_table("DirectionalLight<R>", "directional_lights",
+                      lights_of<runtime::DirectionalLight, R>(scene_));
+    }
+    if (!has_bands()) {
+        member("Rgb<R>", "ambient", convert(scene_.ambient, R{}));
+        member("Rgb<R>", "background", convert(scene_.background, R{}));
+        return;
+    }
+    out_.raw_line("static inline Rgb<R> ambient, background;");
+    out_.raw_line("static inline std::span<const BandGroup<R>> bands;");
+    const std::vector<runtime::BandGroup<R>> bands = bands_of<R>(scene_);
+    values_.add(std::span<const runtime::BandGroup<R>>(bands));
+    read_member("bands");
+    out_.raw_line("static void take_band(std::size_t band) {");
+    out_.indent();
+    for (const std::string& name : colored_) {
+        out_.line("take_rows(all_{}, band, bands.size(), {});", name, name);
+    }
+    out_.raw_line("ambient = bands[band].ambient;");
+    out_.raw_line("background = bands[band].background;");
+    out_.dedent();
+    out_.raw_line("}");
+}
+
+template <class R>
+template <class T>
+void Emitter<R>::colored_table(const std::string& row_type, const std::string& name,
+                               const std::vector<T>& rows) {
+    if (!has_bands()) {
+        table(row_type, name, rows);
+        return;
+    }
+    const std::size_t own = rows.size() / scene_.bands.size();
+    const std::string type = any_scene_ || own > most_constant_rows
+                                 ? fmt::format("std::span<const {}>", row_type)
+                                 : fmt::format("std::array<{}, {}>", row_type, own);
+    out_.line("static inline {} {};", type, name);
+    out_.line("static inline std::span<const {}> all_{};", row_type, name);
+    values_.add(std::span<const T>(rows));
+    read_member("all_" + name);
+    colored_.push_back(name);
 }
 
 template <class R>
@@ -479,13 +528,26 @@ void Emitter<R>::program() {
     for (const std::string& read : reads_) {
         out_.raw_line(read);
     }
+    if (has_bands()) {
+        out_.raw_line("scene.take_band(0);");
+    }
     out_.raw_line("prepare(scene);");
     out_.dedent();
     out_.raw_line("}");
     out_.blank();
     out_.raw_line("RenderResult draw(const RenderRequest& request, Image& image) {");
     out_.indent();
-    out_.raw_line("return render(scene, request, image);");
+    if (has_bands()) {
+        out_.raw_line("return render_bands(scene.bands, request, image, [](std::size_t band, const auto& "
+                      "one, Image& to) {");
+        out_.indent();
+        out_.raw_line("scene.take_band(band);");
+        out_.raw_line("return render(scene, one, to);");
+        out_.dedent();
+        out_.raw_line("});");
+    } else {
+        out_.raw_line("return render(scene, request, image);");
+    }
     out_.dedent();
     out_.raw_line("}");
     out_.blank();
@@ -534,6 +596,9 @@ CppProgram Emitter<R>::emit() {
     out_ = Writer();
     for (const std::string_view header : program_headers) {
         out_.line("#include {}", header);
+    }
+    if (has_bands()) {
+        out_.raw_line("#include \"runtime/bands.h\"");
     }
     if (parameters_ != nullptr) {
         out_.raw_line("#include \"compiler/redefine.h\"");

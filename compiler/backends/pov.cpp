@@ -5,6 +5,7 @@
 #include "compiler/backends/pov_material.h"
 #include "compiler/backends/pov_shape.h"
 #include "compiler/backends/pov_text.h"
+#include "compiler/backends/spectra.h"
 #include "compiler/field_bounds.h"
 #include "compiler/ir/objects.h"
 #include "compiler/resolve_uv.h"
@@ -32,6 +33,7 @@ public:
         emit_camera();
         emit_objects();
         emit_lights(scene_, frame_, lights_, ledger_);
+        record_spectra(scene_, ledger_);
         Writer file;
         emit_settings(file);
         append(file, "camera", camera_);

@@ -168,25 +168,57 @@ inline std::vector<runtime::CsgNode> csg_nodes_of(const ir::Scene& scene) {
     return nodes;
 }
 
-/// The lights of one kind, in source order.
+/// The lights of one kind, in source order; of a scene with spectra, those of each of Scene::bands after
+/// those of the one before.
 template <template <class> class Light, class R>
 std::vector<Light<R>> lights_of(const ir::Scene& scene) {
     std::vector<Light<R>> lights;
-    for (const ir::Light& light : scene.lights) {
-        if (const auto* found = std::get_if<Light<double>>(&light.light)) {
-            lights.push_back(convert(*found, R{}));
+    const auto add = [&](auto&& colored) {
+        for (const ir::Light& light : scene.lights) {
+            if (const auto* found = std::get_if<Light<double>>(&light.light)) {
+                lights.push_back(convert(colored(light, *found), R{}));
+            }
         }
+    };
+    if (scene.bands.empty()) {
+        add([](const ir::Light&, const Light<double>& light) { return light; });
+    }
+    for (std::size_t band = 0; band < scene.bands.size(); ++band) {
+        add([&](const ir::Light& from, Light<double> light) {
+            light.diffuse = from.bands[band].diffuse;
+            light.specular = from.bands[band].specular;
+            return light;
+        });
     }
     return lights;
 }
 
+/// As the lights, band after band.
 template <class R>
 std::vector<runtime::Phong<R>> materials_of(const ir::Scene& scene) {
     std::vector<runtime::Phong<R>> materials;
-    for (const ir::Material& material : scene.materials) {
-        materials.push_back(convert(material.phong, R{}));
+    const auto add = [&](auto&& phong) {
+        for (const ir::Material& material : scene.materials) {
+            materials.push_back(convert(phong(material), R{}));
+        }
+    };
+    if (scene.bands.empty()) {
+        add([](const ir::Material& material) { return material.phong; });
+    }
+    for (std::size_t band = 0; band < scene.bands.size(); ++band) {
+        add([&](const ir::Material& material) { return material.bands[band]; });
     }
     return materials;
+}
+
+template <class R>
+std::vector<runtime::BandGroup<R>> bands_of(const ir::Scene& scene) {
+    std::vector<runtime::BandGroup<R>> bands;
+    for (const runtime::BandGroup<double>& band : scene.bands) {
+        bands.push_back(
+            {convert(band.ambient, R{}), convert(band.background, R{}), band.red, band.green, band.blue});
+    }
+    return bands;
 }
 
 } // namespace scc::compiler

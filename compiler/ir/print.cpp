@@ -86,10 +86,7 @@ void print_function(Writer& out, const Function& function, std::size_t index) {
     out.line("}}");
 }
 
-void print_material(Writer& out, const Material& material, const Scene& scene) {
-    out.line("material {} {{", quote(Language::cpp, material.name));
-    out.indent();
-    const runtime::Phong<double>& p = material.phong;
+void print_phong(Writer& out, const runtime::Phong<double>& p, const Scene& scene) {
     const std::pair<const char*, const Varying<Rgb<double>>*> colors[] = {{"ambient", &p.ambient},
                                                                           {"diffuse", &p.diffuse},
                                                                           {"specular", &p.specular},
@@ -99,6 +96,16 @@ void print_material(Writer& out, const Material& material, const Scene& scene) {
         out.line("{} = {}", field, text(*value, scene));
     }
     out.line("shininess = {}", text(p.shininess, scene));
+}
+
+void print_material(Writer& out, const Material& material, const Scene& scene) {
+    out.line("material {} {{", quote(Language::cpp, material.name));
+    out.indent();
+    print_phong(out, material.phong, scene);
+    for (const runtime::Phong<double>& band : material.bands) {
+        out.raw_line("band");
+        print_phong(out, band, scene);
+    }
     out.dedent();
     out.line("}}");
 }
@@ -183,6 +190,10 @@ std::string print(const Scene& scene) {
              text(c.u), text(c.v), text(c.n), c.half_height, c.shift_x, c.shift_y);
     out.line("ambient = {}", text(scene.ambient));
     out.line("background = {}", text(scene.background));
+    for (const runtime::BandGroup<double>& band : scene.bands) {
+        out.line("band ambient = {}, background = {}, to Rec.709 = [{}, {}, {}]", text(band.ambient),
+                 text(band.background), text(band.red), text(band.green), text(band.blue));
+    }
     std::string needs;
     for (const std::string& feature : feature_names(scene.traits)) {
         needs += (needs.empty() ? " " : ", ") + feature;
@@ -191,6 +202,9 @@ std::string print(const Scene& scene) {
     for (const Light& light : scene.lights) {
         out.line("light {} {}", quote(Language::cpp, light.name),
                  std::visit([](const auto& l) { return light_text(l); }, light.light));
+        for (const LightColors& band : light.bands) {
+            out.line("  band diffuse = {}, specular = {}", text(band.diffuse), text(band.specular));
+        }
     }
     for (std::size_t i = 0; i < scene.functions.size(); ++i) {
         print_function(out, scene.functions[i], i);

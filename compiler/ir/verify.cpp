@@ -45,14 +45,22 @@ void verify_varying(std::int32_t index, std::size_t results, const Scene& scene,
             "a function has the wrong number of results", where);
 }
 
-void verify_material(const Material& material, const Scene& scene) {
-    const runtime::Phong<double>& p = material.phong;
+void verify_phong(const runtime::Phong<double>& p, const Material& material, const Scene& scene) {
     for (const auto* color : {&p.ambient, &p.diffuse, &p.specular, &p.emission, &p.reflect}) {
         verify_varying(color->function, 3, scene, material.name);
         require(std::isfinite(color->value.r + color->value.g + color->value.b), "a colour is not finite",
                 material.name);
     }
     verify_varying(p.shininess.function, 1, scene, material.name);
+}
+
+void verify_material(const Material& material, const Scene& scene) {
+    verify_phong(material.phong, material, scene);
+    require(material.bands.size() == scene.bands.size(), "a material has not one colour per band",
+            material.name);
+    for (const runtime::Phong<double>& phong : material.bands) {
+        verify_phong(phong, material, scene);
+    }
 }
 
 void verify_solid(const Object& object, const runtime::Csg<double>& solid, const Scene& scene) {
@@ -138,6 +146,9 @@ void verify(const Scene& scene) {
     }
     for (const Material& material : scene.materials) {
         verify_material(material, scene);
+    }
+    for (const Light& light : scene.lights) {
+        require(light.bands.size() == scene.bands.size(), "a light has not one colour per band", light.name);
     }
     for (const Object& object : scene.objects) {
         verify_object(object, scene);

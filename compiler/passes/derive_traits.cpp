@@ -99,12 +99,19 @@ std::vector<Need> needs_of(const ir::Scene& scene) {
         need_member(needs.emplace_back(SceneTraits{}, member.span).traits, member);
     }
     for (const ir::Material& material : scene.materials) {
-        need(needs.emplace_back(SceneTraits{}, material.span).traits, material.phong, scene);
+        SceneTraits& traits = needs.emplace_back(SceneTraits{}, material.span).traits;
+        need(traits, material.phong, scene);
+        for (const runtime::Phong<double>& phong : material.bands) {
+            need(traits, phong, scene);
+        }
     }
     for (const ir::Light& light : scene.lights) {
         SceneTraits& traits = needs.emplace_back(SceneTraits{}, light.span).traits;
         traits.shadows = scene.settings.shadows;
         std::visit([&](const auto& l) { need(traits, l); }, light.light);
+        traits.separate_specular |=
+            std::any_of(light.bands.begin(), light.bands.end(),
+                        [](const ir::LightColors& c) { return !(c.diffuse == c.specular); });
     }
     SceneTraits& camera = needs.emplace_back(SceneTraits{}, scene.camera_span).traits;
     camera.perspective = scene.camera.projection == runtime::Projection::perspective;
