@@ -75,10 +75,9 @@ LoadedImage load_image(const std::filesystem::path& path, ImageEncoding encoding
     data.wrap = wrap;
     data.filter = filter;
     find_range(data);
-    image.key =
-        host::cache_key({bytes_of(file.codes), bytes_of(file.values),
-                         fmt::format("{} {} {} {} {}", data.width, data.channels, is_srgb,
-                                     static_cast<int>(wrap), static_cast<int>(filter))});
+    image.key = host::cache_key({bytes_of(file.codes), bytes_of(file.values),
+                                 fmt::format("{} {} {} {} {}", data.width, data.channels, is_srgb,
+                                             static_cast<int>(wrap), static_cast<int>(filter))});
     image.owner = texels;
     return loaded;
 }

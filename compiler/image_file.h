@@ -22,8 +22,8 @@ struct LoadedImage {
     bool holds_floats = false; ///< which are linear light, whatever the encoding
 };
 
-/// Reads a file of any type that OpenImageIO knows, as linear light: grey stays one channel, alpha is left out
-/// (colours as stored). 8-bit files stay codes with a table, others become floats. Throws ImageError.
+/// Reads a file of any type that OpenImageIO knows, as linear light: grey stays one channel, alpha is left
+/// out (colours as stored). 8-bit files stay codes with a table, others become floats. Throws ImageError.
 LoadedImage load_image(const std::filesystem::path& path, ImageEncoding encoding, runtime::Wrap wrap,
                        runtime::Filter filter);
 

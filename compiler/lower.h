@@ -17,7 +17,7 @@ struct LowerOptions {
     AssetPolicy assets;
     /// Of imported files, whose assets lie beside them.
     std::map<lang::FileId, std::filesystem::path> import_folders{};
-    std::string camera;       ///< --camera; empty: the scene's choice
+    std::string camera;           ///< --camera; empty: the scene's choice
     ImageTable* images = nullptr; ///< null: there are none
     bool keep_meshes = false;     ///< take them from the user's cache and leave them there
 };

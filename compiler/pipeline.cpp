@@ -170,9 +170,8 @@ Loaded load(const SceneOptions& options, Stage last) {
     ImageTable images(asset_policy(options, definitions), loaded.sources, loaded.diagnostics);
     timed(loaded, "check", [&] {
         const std::unique_ptr<lang::Importer> importer = make_importer(options, definitions);
-        loaded.module =
-            lang::check(loaded.tree, scene_schema(), definitions, loaded.sources, loaded.diagnostics, {},
-                        importer.get(), options.frame, &images);
+        loaded.module = lang::check(loaded.tree, scene_schema(), definitions, loaded.sources,
+                                    loaded.diagnostics, {}, importer.get(), options.frame, &images);
     });
     check_frame(options, loaded);
     if (last < Stage::scene) {

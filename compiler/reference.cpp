@@ -176,9 +176,9 @@ constexpr std::array types{
     Row{"color", "linear light with Rec.709 primaries"},
     Row{"transform", "an affine map; `a then b` does a first"},
     Row{"range", "`0..5`: whole numbers, the end excluded"},
-    Row{"surface",
-        "the argument of a function of a point: `s.p` in the object's space, `s.world`, the normal `s.n`, the "
-        "coordinates on the surface `s.uv`"},
+    Row{"surface", "the argument of a function of a point: `s.p` in the object's space, `s.world`, the "
+                   "normal `s.n`, the "
+                   "coordinates on the surface `s.uv`"},
     Row{"shape", "what a shape's constructor makes"},
     Row{"material", "what a material's constructor makes"},
     Row{"light", "what a light's constructor makes"},
@@ -264,9 +264,9 @@ const std::map<std::string_view, std::string_view>& examples() {
          "0.2) } }"},
         {"two_sided", "let mirror = phong { diffuse = rgb(0.1, 0.1, 0.1), reflect = rgb(0.8, 0.8, 0.8) }\n"
                       "disc { material = two_sided { front = mirror, back = phong { } } }"},
-        {"image",
-         "let wood = image { file = \"wood.png\" }\nfn grain(s: surface) -> color = wood(s.uv * 4)\n"
-         "fn plank(width: number) -> shape = box { max = (width, 1, 1), material = phong { diffuse = grain } }"},
+        {"image", "let wood = image { file = \"wood.png\" }\nfn grain(s: surface) -> color = wood(s.uv * 4)\n"
+                  "fn plank(width: number) -> shape = box { max = (width, 1, 1), material = phong { diffuse "
+                  "= grain } }"},
         {"point_light", "point_light { position = (4, 6, 3), attenuation = (1, 0.05, 0.01) }"},
         {"directional_light", "directional_light { direction = (-1, -2, -1), color = rgb(0.3, 0.3, 0.35) }"},
         {"perspective_camera", "perspective_camera { eye = (4, 3, 6), target = (0, 0.5, 0), fov_y = 40deg }"},
@@ -467,7 +467,8 @@ std::string diagnostics_text() {
 
 std::string reference_text() {
     return std::string(head) + types_text() + std::string(operators) + words_text() + std::string(imports) +
-           std::string(surfaces) + constructors_text() + functions_text() + limits_text() + diagnostics_text();
+           std::string(surfaces) + constructors_text() + functions_text() + limits_text() +
+           diagnostics_text();
 }
 
 } // namespace scc::compiler

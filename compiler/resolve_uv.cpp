@@ -104,8 +104,8 @@ Terms uv_of(const runtime::Box<double>& box, const Point& p) {
     const auto flipped = [](const Term& t) { return t.constant(1) - t; };
     const auto is_high = [](const Term& t) { return t.constant(0.5) <= t; };
     const Term on_x = (out(y) <= out(x)) * (out(z) <= out(x)), on_y = out(z) <= out(y);
-    const Term u = choose(on_x, choose(is_high(x), flipped(z), z),
-                          choose(on_y, x, choose(is_high(z), x, flipped(x))));
+    const Term u =
+        choose(on_x, choose(is_high(x), flipped(z), z), choose(on_y, x, choose(is_high(z), x, flipped(x))));
     const Term v_on_y = choose(is_high(y), flipped(z), z);
     return {u, choose(on_x, y, choose(on_y, v_on_y, y))};
 }
@@ -272,9 +272,8 @@ private:
         if (!ir::material_reads(scene_, material, ir::Input::uv_x, ir::Input::uv_y)) {
             return material;
         }
-        const auto [place, is_new] =
-            materials_.try_emplace({material, shape_key(shape)},
-                                   static_cast<std::uint32_t>(scene_.materials.size()));
+        const auto [place, is_new] = materials_.try_emplace(
+            {material, shape_key(shape)}, static_cast<std::uint32_t>(scene_.materials.size()));
         if (!is_new) {
             return place->second;
         }

@@ -241,30 +241,32 @@ Constructor two_sided() {
 }
 
 Constructor image() {
-    return {.name = "image",
-            .type = TypeKind::image,
-            .fields = {{.name = "file",
-                        .type = TypeKind::string,
-                        .required = true,
-                        .asset = true,
-                        .doc = "any type that OpenImageIO reads, at most 16384 texels to a side; grey stands in all "
-                               "channels, alpha is left out"},
-                       {.name = "encoding",
-                        .type = TypeKind::string,
-                        .default_value = text("srgb"),
-                        .choices = {"srgb", "linear"},
-                        .doc = "of whole numbers; a file of floats holds linear light"},
-                       {.name = "wrap",
-                        .type = TypeKind::string,
-                        .default_value = text("repeat"),
-                        .choices = {"repeat", "clamp"},
-                        .doc = "beyond 0 to 1: again and again, or as at the edge"},
-                       {.name = "filter",
-                        .type = TypeKind::string,
-                        .default_value = text("bilinear"),
-                        .choices = {"bilinear", "nearest"},
-                        .doc = "between the texels' centres: blended, or the nearest one"}},
-            .doc = "a function of a vec2 that gives a colour: `wood(s.uv)`. Over (0, 0) to (1, 1), v upwards"};
+    return {
+        .name = "image",
+        .type = TypeKind::image,
+        .fields = {{.name = "file",
+                    .type = TypeKind::string,
+                    .required = true,
+                    .asset = true,
+                    .doc =
+                        "any type that OpenImageIO reads, at most 16384 texels to a side; grey stands in all "
+                        "channels, alpha is left out"},
+                   {.name = "encoding",
+                    .type = TypeKind::string,
+                    .default_value = text("srgb"),
+                    .choices = {"srgb", "linear"},
+                    .doc = "of whole numbers; a file of floats holds linear light"},
+                   {.name = "wrap",
+                    .type = TypeKind::string,
+                    .default_value = text("repeat"),
+                    .choices = {"repeat", "clamp"},
+                    .doc = "beyond 0 to 1: again and again, or as at the edge"},
+                   {.name = "filter",
+                    .type = TypeKind::string,
+                    .default_value = text("bilinear"),
+                    .choices = {"bilinear", "nearest"},
+                    .doc = "between the texels' centres: blended, or the nearest one"}},
+        .doc = "a function of a vec2 that gives a colour: `wood(s.uv)`. Over (0, 0) to (1, 1), v upwards"};
 }
 
 void add_light_fields(Constructor& row) {

@@ -157,8 +157,9 @@ struct ItemCode {
 struct Code {
     std::variant<code::Failed, code::Constant, code::Variable, code::FunctionValue, code::Unary, code::Binary,
                  code::Tuple, code::List, code::Comprehension, code::Conditional, code::Component,
-                 code::SurfaceInput, code::BuiltinCall, code::ListCall, code::Call, code::ImageCall, code::Index,
-                 code::Imported, code::ImportedScene, code::Given, code::FrameNumber, code::Construct>
+                 code::SurfaceInput, code::BuiltinCall, code::ListCall, code::Call, code::ImageCall,
+                 code::Index, code::Imported, code::ImportedScene, code::Given, code::FrameNumber,
+                 code::Construct>
         node;
     Span span;
 };

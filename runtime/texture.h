@@ -14,7 +14,8 @@ namespace scc::runtime {
 enum class Wrap : std::uint32_t { repeat, clamp };
 enum class Filter : std::uint32_t { bilinear, nearest };
 
-/// A picture as per-point functions look it up: over the unit square, v upwards, the centre of texel (i, j) at
+/// A picture as per-point functions look it up: over the unit square, v upwards, the centre of texel (i, j)
+/// at
 /// ((i + 1/2) / width, (j + 1/2) / height). Owns nothing: a program may map the texels from a file. Rows run
 /// from the bottom, each texel has 1 channel (grey) or 3, and is either a code, decoded by the table, or a
 /// float; both in linear light.

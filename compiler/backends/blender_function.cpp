@@ -68,9 +68,8 @@ private:
 
     /// One node looks all channels up.
     std::string look_up(const Node& node) {
-        const auto [place, is_new] =
-            lookups_.try_emplace({node.image, node.operands[0], node.operands[1]},
-                                 fmt::format("i{}", lookups_.size()));
+        const auto [place, is_new] = lookups_.try_emplace({node.image, node.operands[0], node.operands[1]},
+                                                          fmt::format("i{}", lookups_.size()));
         if (is_new) {
             out_.line("{} = g.image({}, {}, {})", place->second, python(image_keys_[node.image]),
                       texts_[node.operands[0]], texts_[node.operands[1]]);

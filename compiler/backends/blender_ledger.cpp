@@ -146,9 +146,10 @@ private:
         }
         if (!scene_.functions[static_cast<std::size_t>(function)].images.empty()) {
             add({Fidelity::approximated,
-                 fmt::format("`{}` as Math nodes and images; bound: of what Cycles' filter of texels loses, in "
-                             "their range, as measured",
-                             name),
+                 fmt::format(
+                     "`{}` as Math nodes and images; bound: of what Cycles' filter of texels loses, in "
+                     "their range, as measured",
+                     name),
                  1.5e-6},
                 fmt::format("per-point {}", field), material.name, material.span);
             return;

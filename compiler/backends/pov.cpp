@@ -27,7 +27,8 @@ class PovExport {
 public:
     PovExport(const ir::Scene& scene, Ledger& ledger, ExportFiles& files, const lang::SourceSet* sources)
         : scene_(scene), ledger_(ledger), sources_(sources), frame_(choose_frame(scene)),
-          in_union_(needs_object_union(scene)), materials_(scene, files, functions_, textures_, ledger), files_(files) {}
+          in_union_(needs_object_union(scene)), materials_(scene, files, functions_, textures_, ledger),
+          files_(files) {}
 
     std::string run() {
         emit_camera();
@@ -253,9 +254,9 @@ private:
             const std::string moved = !use.varies    ? ""
                                       : use.in_world ? frame_.texture_transform()
                                                      : in_object;
-            lines.push_back({fmt::format("{} {{ {}{}{} }}", keyword, use.by_uv ? "uv_mapping " : "", use.texture,
-                                         moved),
-                             use.in_world});
+            lines.push_back(
+                {fmt::format("{} {{ {}{}{} }}", keyword, use.by_uv ? "uv_mapping " : "", use.texture, moved),
+                 use.in_world});
         };
         const auto [front, back] = object.sides;
         add("texture", shape.reversed ? back : front);

@@ -20,10 +20,9 @@ constexpr std::uint32_t most_levels = 200;
 
 } // namespace
 
-PovExpression::PovExpression(const ir::Function& function, std::uint32_t result,
-                             const Words& words)
-    : function_(function), words_(words), result_(result), needed_(result + 1), shared_(result + 1), level_(result + 1),
-      last_use_(result + 1) {
+PovExpression::PovExpression(const ir::Function& function, std::uint32_t result, const Words& words)
+    : function_(function), words_(words), result_(result), needed_(result + 1), shared_(result + 1),
+      level_(result + 1), last_use_(result + 1) {
     needed_[result] = true;
     for (std::uint32_t i = result + 1; i-- > 0;) {
         for (std::size_t k = 0; needed_[i] && k < arity(function.nodes[i]); ++k) {
@@ -160,7 +159,8 @@ std::string PovExpression::applied(std::uint32_t index) const {
     case Node::Kind::input:
         return input(node.input);
     case Node::Kind::image:
-        return words_.images[node.image]->channel(node.channel, text(node.operands[0]), text(node.operands[1]));
+        return words_.images[node.image]->channel(node.channel, text(node.operands[0]),
+                                                  text(node.operands[1]));
     case Node::Kind::apply:
         break;
     }

@@ -13,14 +13,14 @@
 namespace scc::compiler {
 
 /// One result of a per-point function as SDL functions of x, y, z: the object-space point, or the world point
-/// where only that is read; where both are read, the world point follows as wx, wy, wz. Of a function that reads
-/// uv, x and y are u and v. SDL has no local
-/// variables: what the result needs more than once is a parameter of a further function.
+/// where only that is read; where both are read, the world point follows as wx, wy, wz. Of a function that
+/// reads uv, x and y are u and v. SDL has no local variables: what the result needs more than once is a
+/// parameter of a further function.
 class PovExpression {
 public:
     /// What stands for operators and images that SDL does not have.
     struct Words {
-        std::vector<const PovImages::Declared*> images;  ///< the function's
+        std::vector<const PovImages::Declared*> images; ///< the function's
         std::map<std::uint32_t, std::string> functions; ///< of three numbers, by their nodes
     };
     /// The result is a node of the function; it does not read n.

@@ -163,7 +163,8 @@ InputRanges input_ranges(const ir::Object& object, const ir::Scene& scene) {
             Range range{0, 0};
             for (std::size_t i = input == ir::Input::uv_x ? 0 : 1; i < uvs.size(); i += 2) {
                 const double value = uvs[i];
-                range = i < 2 ? Range{value, value} : Range{std::min(range.min, value), std::max(range.max, value)};
+                range = i < 2 ? Range{value, value}
+                              : Range{std::min(range.min, value), std::max(range.max, value)};
             }
             ranges[static_cast<std::size_t>(input)] = range;
         }

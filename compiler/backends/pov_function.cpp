@@ -132,14 +132,15 @@ double excess(const ir::Function& function, std::uint32_t node, const InputRange
     for (int sample = 0; sample < 4096; ++sample) {
         std::array<double, ir::input_count> x{};
         for (std::size_t i = 0; i < x.size(); ++i) {
-            constexpr double primes[] = {0.7548776662, 0.5698402910, 0.8191725134, 0.6710436067, 0.5497004779,
-                                         0.4502995221, 0.8566748838, 0.7338918566, 0.6287067210,
-                                         0.5385972572, 0.4613935681};
+            constexpr double primes[] = {0.7548776662, 0.5698402910, 0.8191725134, 0.6710436067,
+                                         0.5497004779, 0.4502995221, 0.8566748838, 0.7338918566,
+                                         0.6287067210, 0.5385972572, 0.4613935681};
             const double low = std::max(inputs[i].min, -1000.0), high = std::min(inputs[i].max, 1000.0);
             const double fraction = sample * primes[i] - std::floor(sample * primes[i]);
             x[i] = low + fraction * (high - low);
         }
-        const runtime::SurfacePoint<double> point{{x[0], x[1], x[2]}, {x[3], x[4], x[5]}, {x[6], x[7], x[8]}, {x[9], x[10]}};
+        const runtime::SurfacePoint<double> point{
+            {x[0], x[1], x[2]}, {x[3], x[4], x[5]}, {x[6], x[7], x[8]}, {x[9], x[10]}};
         const double value = run(program, point)[node];
         if (!std::isnan(value)) {
             largest = std::max({largest, range.min - value, value - range.max});
@@ -239,8 +240,8 @@ const PovExpression::Words& PovFunctions::words(std::int32_t index) {
         if (ranges.empty()) {
             ranges = node_ranges(function, inputs_[static_cast<std::size_t>(index)].value_or(InputRanges{}));
         }
-        const std::string name = lattices_.declare(fmt::format("{}_{}", function.name, row(node.op).name), node.op,
-                                                   {ranges[a], ranges[b], ranges[c]});
+        const std::string name = lattices_.declare(fmt::format("{}_{}", function.name, row(node.op).name),
+                                                   node.op, {ranges[a], ranges[b], ranges[c]});
         if (!name.empty()) {
             words->functions.emplace(i, name);
         }
@@ -263,9 +264,10 @@ const PovFunctions::Declared& PovFunctions::declare(std::int32_t index, std::uin
     if (expression.reads_normal()) {
         declared.obstacle = "POV-Ray's functions cannot read the normal n";
     } else if (!expression.unspoken().empty()) {
-        declared.obstacle = fmt::format("its `{}` would need a table that is unbounded or has more than {} points{}",
-                                        expression.unspoken(), PovLattices::most_points,
-                                        expression.unspoken() == "random" ? ", or is not that of whole numbers" : "");
+        declared.obstacle =
+            fmt::format("its `{}` would need a table that is unbounded or has more than {} points{}",
+                        expression.unspoken(), PovLattices::most_points,
+                        expression.unspoken() == "random" ? ", or is not that of whole numbers" : "");
     } else if (!expression.fits()) {
         declared.obstacle = "it needs more parameters or deeper nesting than POV-Ray's functions have";
     } else {
@@ -282,8 +284,8 @@ PovFunctions::Scaled PovFunctions::scaled(std::int32_t index, std::uint32_t node
                     std::clamp(whole.max, -place.largest, place.largest)};
     const Declared& declared = declare(index, node, suffix);
     const std::string_view obstacle = declared.reads_uv && !place.uv_obstacle.empty() ? place.uv_obstacle
-                                      : declared.name.empty()                          ? declared.obstacle
-                                                                                       : "";
+                                      : declared.name.empty()                         ? declared.obstacle
+                                                                                      : "";
     if (!obstacle.empty()) {
         outcome = {Fidelity::dropped, fmt::format("drawn with its mean value: {}", obstacle), 0};
         const double middle = std::clamp((cut.min + cut.max) / 2, 0.0, 1.0);
@@ -320,9 +322,10 @@ std::pair<Paint, Outcome> PovFunctions::paint(std::int32_t index, const Place& p
     paint.function = index;
     Outcome outcome{Fidelity::exact, "as an SDL function", 0};
     if (!words(index).functions.empty()) {
-        outcome = {Fidelity::approximated,
-                   "as an SDL function, `noise` and `random` as tables of 32 bits; bound of one of their values",
-                   PovLattices::error};
+        outcome = {
+            Fidelity::approximated,
+            "as an SDL function, `noise` and `random` as tables of 32 bits; bound of one of their values",
+            PovLattices::error};
     }
     for (const std::shared_ptr<const ir::Image>& image : function.images) {
         if (const double error = images_.declare(*image).error; error > 0) {

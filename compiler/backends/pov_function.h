@@ -84,7 +84,7 @@ private:
                   Outcome& outcome);
 
     const std::vector<ir::Function>& functions_;
-    std::vector<std::optional<InputRanges>> inputs_;          ///< of each function
+    std::vector<std::optional<InputRanges>> inputs_;         ///< of each function
     std::vector<std::optional<PovExpression::Words>> words_; ///< of each function
     PovImages images_;
     PovLattices lattices_;

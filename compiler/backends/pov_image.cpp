@@ -21,7 +21,8 @@ std::string png_of(const runtime::ImageData& data, int bits, Code&& code) {
         for (std::uint32_t x = 0; x < data.width; ++x) {
             float* pixel = picture.at(static_cast<int>(x), static_cast<int>(data.height - 1 - y));
             for (std::uint32_t channel = 0; channel < 3; ++channel) {
-                pixel[channel] = static_cast<float>(host::decode_srgb(code(x, y, channel) / most)); // the writer encodes
+                pixel[channel] =
+                    static_cast<float>(host::decode_srgb(code(x, y, channel) / most)); // the writer encodes
             }
         }
     }
@@ -39,8 +40,8 @@ std::string PovImages::Declared::channel(std::uint32_t which, const std::string&
                    ? x
                    : fmt::format("min(max({}, {}), {})", x, number(0.5 / size), number(1 - 0.5 / size));
     };
-    const std::string value = fmt::format("{}({}, {}, 0).{}", name, inside(u, data.width),
-                                          inside(v, data.height), channels[which]);
+    const std::string value =
+        fmt::format("{}({}, {}, 0).{}", name, inside(u, data.width), inside(v, data.height), channels[which]);
     if (low == 0 && span == 1) {
         return value;
     }
@@ -59,10 +60,11 @@ const PovImages::Declared& PovImages::declare(const ir::Image& image) {
     const std::string file = fmt::format("{}_{}.png", files_.stem, declared.name);
     const bool keeps_codes = data.codes != nullptr;
     if (keeps_codes) {
-        files_.files.push_back({file, png_of(data, 8, [&](auto x, auto y, auto channel) {
-                                    const std::uint32_t stored = std::min(channel, data.channels - 1);
-                                    return data.codes[(std::size_t{y} * data.width + x) * data.channels + stored];
-                                })});
+        files_.files.push_back(
+            {file, png_of(data, 8, [&](auto x, auto y, auto channel) {
+                 const std::uint32_t stored = std::min(channel, data.channels - 1);
+                 return data.codes[(std::size_t{y} * data.width + x) * data.channels + stored];
+             })});
     } else {
         declared.low = *std::min_element(data.min.begin(), data.min.end());
         const double high = *std::max_element(data.max.begin(), data.max.end());

@@ -9,16 +9,16 @@
 
 namespace scc::compiler {
 
-/// Images as SDL functions of their pigments, each with a PNG file beside the export. An 8-bit image keeps its
-/// codes; another one is stretched to 16 bits between its least and its greatest value.
+/// Images as SDL functions of their pigments, each with a PNG file beside the export. An 8-bit image keeps
+/// its codes; another one is stretched to 16 bits between its least and its greatest value.
 class PovImages {
 public:
     PovImages(ExportFiles& files, Writer& out) : files_(files), out_(out) {}
 
     struct Declared {
-        std::string name;            ///< of a vector function of the unit square
-        double low = 0, span = 1;    ///< a channel is low + span times what the function gives
-        double error = 0;            ///< of that, at most
+        std::string name;         ///< of a vector function of the unit square
+        double low = 0, span = 1; ///< a channel is low + span times what the function gives
+        double error = 0;         ///< of that, at most
         const ir::Image* image = nullptr;
 
         /// A channel at (u, v), both expressions.

@@ -44,8 +44,8 @@ std::string density_file(ir::Op op, const Lattice& lattice) {
         for (double j = 0; j < lattice.size[1]; ++j) {
             for (double i = 0; i < lattice.size[0]; ++i) {
                 const double x = lattice.first[0] + i, y = lattice.first[1] + j, z = lattice.first[2] + k;
-                const double value = op == ir::Op::noise ? runtime::noise_number(x, y, z)
-                                                         : runtime::random_number(x, y, z);
+                const double value =
+                    op == ir::Op::noise ? runtime::noise_number(x, y, z) : runtime::random_number(x, y, z);
                 append_big_endian(bytes, static_cast<std::uint32_t>(std::llround(value * 4294967295.0)));
             }
         }

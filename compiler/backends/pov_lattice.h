@@ -10,9 +10,9 @@
 
 namespace scc::compiler {
 
-/// `noise` and `random` as SDL functions of a density file beside the export, which holds what our integer hash
-/// gives at whole numbers, in 32 bits; POV-Ray has other noise. Between whole numbers noise is blended by its own
-/// curve: POV-Ray interpolates linearly, from where the curve puts the point.
+/// `noise` and `random` as SDL functions of a density file beside the export, which holds what our integer
+/// hash gives at whole numbers, in 32 bits; POV-Ray has other noise. Between whole numbers noise is blended
+/// by its own curve: POV-Ray interpolates linearly, from where the curve puts the point.
 class PovLattices {
 public:
     PovLattices(ExportFiles& files, Writer& out) : files_(files), out_(out) {}
@@ -22,8 +22,8 @@ public:
     /// A density file has no more points.
     static constexpr double most_points = 4e6;
 
-    /// Writes a function of three numbers within these ranges and returns its name; "" where they are too wide
-    /// for a file. `random` is that of whole numbers.
+    /// Writes a function of three numbers within these ranges and returns its name; "" where they are too
+    /// wide for a file. `random` is that of whole numbers.
     std::string declare(std::string_view name, ir::Op op, const std::array<Range, 3>& ranges);
 
 private:

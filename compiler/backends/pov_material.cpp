@@ -19,7 +19,8 @@ namespace {
 /// Reflectances and emissions are colours that one can see; exponents grow further.
 constexpr double largest_color = 8;
 constexpr double largest_shininess = 1e5;
-constexpr std::string_view uv_and_point = "POV-Ray maps a texture by uv or by the point, and this material reads both";
+constexpr std::string_view uv_and_point =
+    "POV-Ray maps a texture by uv or by the point, and this material reads both";
 /// Stands for one that POV-Ray cannot calculate.
 constexpr double usual_shininess = 32;
 

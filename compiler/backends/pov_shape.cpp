@@ -191,9 +191,8 @@ void declare_mesh(const ir::Mesh& mesh, const std::string& name, bool with_uvs, 
     }
     const bool has_uvs = with_uvs && !mesh.uvs.empty();
     if (has_uvs) {
-        list(out, "uv_vectors", mesh.uvs.size() / 2, [&](std::size_t i) {
-            return fmt::format("<{}, {}>", mesh.uvs[2 * i], mesh.uvs[2 * i + 1]);
-        });
+        list(out, "uv_vectors", mesh.uvs.size() / 2,
+             [&](std::size_t i) { return fmt::format("<{}, {}>", mesh.uvs[2 * i], mesh.uvs[2 * i + 1]); });
     }
     list_faces(out, "face_indices", mesh.indices);
     if (!mesh.normals.empty()) {

@@ -82,7 +82,8 @@ int export_scene(const Options& options) {
         return host::exit_scene;
     }
     if (!beside.files.empty() && options.output == "-") {
-        throw host::UsageError("the scene has images, which are written beside the export; `-o` takes a file's name");
+        throw host::UsageError(
+            "the scene has images, which are written beside the export; `-o` takes a file's name");
     }
     if (!options.ledger.empty()) {
         write_result(options.ledger, ledger_json(ledger_rows(ledger, loaded.sources)));
@@ -121,7 +122,10 @@ void add_export(CLI::App& app, Run& selected) {
         ->required()
         ->check(CLI::IsMember(names));
     add_scene_options(*command, options->scene);
-    command->add_option("-o,--output", options->output, "the exported file; - for stdout. Images of an export to POV-Ray go beside it, named after it")
+    command
+        ->add_option(
+            "-o,--output", options->output,
+            "the exported file; - for stdout. Images of an export to POV-Ray go beside it, named after it")
         ->required()
         ->type_name("OUT");
     command

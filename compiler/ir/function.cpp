@@ -34,9 +34,8 @@ std::size_t arity(const Node& node) {
 }
 
 std::string_view name(Input input) {
-    constexpr std::string_view names[] = {"p.x",     "p.y", "p.z", "world.x", "world.y",
-                                          "world.z", "n.x", "n.y", "n.z",
-                                          "uv.x",    "uv.y"};
+    constexpr std::string_view names[] = {"p.x", "p.y", "p.z", "world.x", "world.y", "world.z",
+                                          "n.x", "n.y", "n.z", "uv.x",    "uv.y"};
     return names[static_cast<std::size_t>(input)];
 }
 

@@ -51,10 +51,10 @@ std::size_t arity(const Node& node);
 struct Function {
     std::string name; ///< the author's, or made from the field it stands in
     std::vector<Node> nodes;
-    std::vector<lang::Span> places;            ///< where each node's operation was written
-    std::vector<std::uint32_t> results;        ///< 1 for a number, 3 for a colour
+    std::vector<lang::Span> places;                     ///< where each node's operation was written
+    std::vector<std::uint32_t> results;                 ///< 1 for a number, 3 for a colour
     std::vector<std::shared_ptr<const Image>> images{}; ///< each once
-    bool reads(Input first, Input last) const; ///< some node reads an input of this range
+    bool reads(Input first, Input last) const;          ///< some node reads an input of this range
 };
 
 } // namespace scc::compiler::ir

@@ -70,9 +70,8 @@ void print_function(Writer& out, const Function& function, std::size_t index) {
             }
             break;
         case Node::Kind::image:
-            what = fmt::format("image {}.{} %{} %{}",
-                               quote(Language::cpp, function.images[node.image]->name), "rgb"[node.channel],
-                               node.operands[0], node.operands[1]);
+            what = fmt::format("image {}.{} %{} %{}", quote(Language::cpp, function.images[node.image]->name),
+                               "rgb"[node.channel], node.operands[0], node.operands[1]);
             break;
         }
         out.line("%{} = {}", i, what);

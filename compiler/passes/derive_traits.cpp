@@ -54,8 +54,8 @@ void need(SceneTraits& traits, const runtime::Phong<double>& p, const ir::Scene&
                                         p.emission.function, p.reflect.function, p.shininess.function}) {
         if (function != runtime::no_function) {
             traits.functions = true;
-            traits.uv |= scene.functions[static_cast<std::size_t>(function)].reads(ir::Input::uv_x,
-                                                                                   ir::Input::uv_y);
+            traits.uv |=
+                scene.functions[static_cast<std::size_t>(function)].reads(ir::Input::uv_x, ir::Input::uv_y);
         }
     }
 }

@@ -296,7 +296,8 @@ fn tiled(s: surface) -> color = rgb(1, 1, 1) * random(floor(4 * s.p.x), floor(4 
 sphere { radius = 1.1, material = phong { diffuse = worn }, transform = scale(1, 0.8, 1) then translate(-2, 0.8, 0) }
 box { max = (1, 1.01, 1), material = phong { diffuse = tiled }, transform = rotate_y(20deg) then translate(0.6, 0.6, -0.5) }
 cone { radius_from = 1, material = phong { diffuse = windy }, transform = scale(1, 1.5, 1) then translate(2.6, 0, 1) }
-)", 4);
+)",
+                        4);
 }
 
 } // namespace

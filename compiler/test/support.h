@@ -49,7 +49,8 @@ inline Compiled compile_shapes(const std::string& shapes) {
 }
 
 /// The export to POV-Ray of a scene without images.
-inline std::string emit_pov(const ir::Scene& scene, Ledger& ledger, const lang::SourceSet* sources = nullptr) {
+inline std::string emit_pov(const ir::Scene& scene, Ledger& ledger,
+                            const lang::SourceSet* sources = nullptr) {
     ExportFiles files{.stem = "scene"};
     return compiler::emit_pov(scene, ledger, files, sources);
 }

@@ -125,9 +125,9 @@ TEST_F(Textures, AreKnownWhereTheirPlaceIs) {
 
 TEST_F(Textures, AreLookedUpByFunctionsOfAPoint) {
     save_quarters();
-    const Loaded loaded =
-        load_scene(view + "let q = image { file = \"q.png\" }\nlet again = image { file = \"q.png\" }\n"
-                          "plane { material = phong { diffuse = fn(s: surface) = q(s.uv) * again(s.uv) } }\n");
+    const Loaded loaded = load_scene(
+        view + "let q = image { file = \"q.png\" }\nlet again = image { file = \"q.png\" }\n"
+               "plane { material = phong { diffuse = fn(s: surface) = q(s.uv) * again(s.uv) } }\n");
     EXPECT_EQ(messages(loaded), "");
     ASSERT_EQ(loaded.scene.functions.size(), 1U);
     const ir::Function& function = loaded.scene.functions[0];
@@ -187,8 +187,9 @@ TEST_F(Textures, MeshesWithoutCoordinatesAreWarnedOf) {
 
 TEST_F(Textures, FieldsOfImplicitSurfacesCannotReadThem) {
     save_quarters();
-    const Loaded loaded = load_scene(view + "let q = image { file = \"q.png\" }\nimplicit { field = fn(p: vec3) = "
-                                            "q((p.x, p.y)).r - 0.5, within = sphere { } }\n");
+    const Loaded loaded =
+        load_scene(view + "let q = image { file = \"q.png\" }\nimplicit { field = fn(p: vec3) = "
+                          "q((p.x, p.y)).r - 0.5, within = sphere { } }\n");
     EXPECT_EQ(messages(loaded), "not-supported-yet\n");
 }
 
@@ -238,8 +239,9 @@ TEST_F(Textures, OnMeshesPovReadsUvOrThePoint) {
     test::save(folder_ / "m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
     const auto ledger_of = [&](const std::string& diffuse, std::string& text) {
         const Loaded loaded =
-            load_scene(view + "let q = image { file = \"q.png\" }\nmesh { file = \"m.obj\", material = phong { "
-                              "diffuse = fn(s: surface) = " +
+            load_scene(view +
+                       "let q = image { file = \"q.png\" }\nmesh { file = \"m.obj\", material = phong { "
+                       "diffuse = fn(s: surface) = " +
                        diffuse + " } }\n");
         EXPECT_EQ(messages(loaded), "");
         ExportFiles files{.stem = "out"};
@@ -260,7 +262,8 @@ TEST_F(Textures, OnMeshesPovReadsUvOrThePoint) {
 
 TEST_F(Textures, NoiseWithoutBoundsIsDroppedForPov) {
     const auto dropped = [&](const std::string& shape) {
-        const Loaded loaded = load_scene(view + "fn f(s: surface) -> color = rgb(1, 1, 1) * noise(s.p * 3)\n" + shape);
+        const Loaded loaded =
+            load_scene(view + "fn f(s: surface) -> color = rgb(1, 1, 1) * noise(s.p * 3)\n" + shape);
         EXPECT_EQ(messages(loaded), "");
         ExportFiles files{.stem = "out"};
         Ledger ledger;

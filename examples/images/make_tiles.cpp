@@ -1,5 +1,5 @@
-// Makes tiles.ppm, from which tiles.png is: 64 x 64 texels of a wall of glazed tiles, one letter-like mark in each
-// corner tile, so that a picture shows which way up it is and whether it is mirrored.
+// Makes tiles.ppm, from which tiles.png is: 64 x 64 texels of a wall of glazed tiles, one letter-like mark in
+// each corner tile, so that a picture shows which way up it is and whether it is mirrored.
 //   make_tiles > tiles.ppm && oiiotool tiles.ppm -o tiles.png
 
 #include <array>

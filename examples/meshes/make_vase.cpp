@@ -1,5 +1,5 @@
-// Makes vase.obj, the mesh with texture coordinates that textures.scn shows: a vase that stands at the origin,
-// u once around it and v from its foot to its rim.
+// Makes vase.obj, the mesh with texture coordinates that textures.scn shows: a vase that stands at the
+// origin, u once around it and v from its foot to its rim.
 //   make_vase vase.obj
 
 #include <cmath>

@@ -51,7 +51,7 @@ TEST(Texture, CentresOfTexelsHaveTheirValues) {
 
 TEST(Texture, BetweenCentresValuesAreBlended) {
     const Grey grey;
-    EXPECT_DOUBLE_EQ(grey.at(0.25, 0.25), 0.5);              // between texels 0 and 1 of the lower row
+    EXPECT_DOUBLE_EQ(grey.at(0.25, 0.25), 0.5); // between texels 0 and 1 of the lower row
     EXPECT_DOUBLE_EQ(grey.at(0.5, 0.5), (1 + 2 + 20 + 30) / 4.0);
     EXPECT_DOUBLE_EQ(grey.at((0.5 + 0.25) / 4, 0.75), 0.75 * 10 + 0.25 * 20);
     EXPECT_DOUBLE_EQ(grey.at(0.125, 0.25 + 0.1 * 0.5), 0.9 * 0 + 0.1 * 10); // v is upwards
@@ -174,7 +174,8 @@ TEST(Uv, ASphereHasLongitudeAndLatitude) {
             // From the z axis towards x, which is to the right of who looks along -z.
             const Vec3<double> out{std::cos(latitude) * std::sin(longitude), std::sin(latitude),
                                    std::cos(latitude) * std::cos(longitude)};
-            expect_uv(sphere, sphere.center + 2.0 * out, out, 0.5 + longitude / (2 * pi), 0.5 + latitude / pi);
+            expect_uv(sphere, sphere.center + 2.0 * out, out, 0.5 + longitude / (2 * pi),
+                      0.5 + latitude / pi);
         }
     }
 }

@@ -25,7 +25,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Example{"lecture", "pov,blender,native"}, Example{"mesh", "pov,blender,native"},
                     Example{"transforms", "pov,blender,native"}, Example{"lights", "pov,blender,native"},
                     Example{"mirrors", "pov,blender,native"}, Example{"csg", "pov,native"},
-                    Example{"textures", "pov,blender,native"}, Example{"implicit", "pov,native"}, Example{"lattice", "pov,native"}),
+                    Example{"textures", "pov,blender,native"}, Example{"implicit", "pov,native"},
+                    Example{"lattice", "pov,native"}),
     [](const auto& row) { return std::string(row.param.name); });
 
 TEST_P(Examples, CheckWithoutAWarning) {
