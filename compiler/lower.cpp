@@ -52,6 +52,11 @@ void assign(bool& target, const lang::Value& value, const Number& number) {
     target = number(std::get<lang::BoolValue>(value.v).v) != 0;
 }
 template <class Number>
+void assign(runtime::Vec2<double>& target, const lang::Value& value, const Number& number) {
+    const auto& v = std::get<lang::Vec2Value>(value.v).v;
+    target = {number(v[0]), number(v[1])};
+}
+template <class Number>
 void assign(Vec3<double>& target, const lang::Value& value, const Number& number) {
     const auto& v = std::get<lang::Vec3Value>(value.v).v;
     target = {number(v[0]), number(v[1]), number(v[2])};
@@ -123,6 +128,7 @@ private:
     std::optional<ir::Shapes> described_shapes(const lang::ThingRows& rows, std::size_t index);
     std::optional<Affine<double>> place_of_thing(const Thing& thing, const std::string& path,
                                                  const Affine<double>& world_from_parent);
+    void check_uv(const ir::Shape& shape, const runtime::Sides& sides, const Thing& thing);
     bool has_room(std::size_t more, const Thing& thing);
     std::string next_path(Numbering& numbering, const Thing& thing) const;
     std::string unique_path(const std::string& wanted);
@@ -139,14 +145,15 @@ private:
     std::optional<std::uint32_t> make_heightfield(const Thing& thing);
     std::uint32_t add_mesh(ir::Mesh mesh);
     std::optional<ir::Shape> mesh_shape(const Thing& thing);
-    std::optional<std::uint32_t> load_mesh(const Thing& thing, const std::string& file, MeshNormals normals);
+    std::optional<std::uint32_t> load_mesh(const Thing& thing, const std::string& file, MeshNormals normals,
+                                           bool with_uv);
     const std::filesystem::path& folder_of(const Thing& mesh) const;
 
     const LowerOptions& options_;
     ir::Scene& scene_;
     lang::Diagnostics& diagnostics_;
     MaterialTable& materials_;
-    using MeshKey = std::tuple<std::filesystem::path, std::string, MeshNormals>; ///< folder, name
+    using MeshKey = std::tuple<std::filesystem::path, std::string, MeshNormals, bool>; ///< folder, name
     std::map<MeshKey, std::optional<std::uint32_t>> meshes_;
     std::map<const Thing*, std::optional<std::uint32_t>> heightfields_;
     std::set<std::string> mesh_names_;
@@ -287,12 +294,18 @@ std::optional<ir::Shape> ObjectLowering::implicit_shape(const Thing& thing) {
     const auto within = container(*thing.find("within"), "implicit surface");
     const lang::FieldValue& field = *thing.find("field");
     const auto& closure = std::get<lang::ClosurePtr>(field.value.v);
-    FunctionBuilder builder;
-    const std::vector<lang::Scalar> results = lang::trace_at_point(closure, builder, diagnostics_);
+    FunctionBuilder builder(options_.images);
+    const std::vector<lang::Scalar> results =
+        lang::trace_at_point(closure, builder, diagnostics_, options_.images);
     if (!within || results.size() != 1) {
         return std::nullopt;
     }
     ir::Function function = builder.finish(results);
+    if (!function.images.empty()) {
+        diagnostics_.report(Diag::unsupported_setting, field.value_span,
+                            "an image in the field of an implicit surface");
+        return std::nullopt;
+    }
     function.name = lang::name_of(*closure).empty() ? own_name(thing) + " field" : lang::name_of(*closure);
     if (const auto found = find_unbounded(function, *within)) {
         diagnostics_.report(Diag::unbounded_field,
@@ -312,9 +325,10 @@ std::optional<ir::Shape> ObjectLowering::mesh_shape(const Thing& thing) {
         {"file", MeshNormals::file}, {"smooth", MeshNormals::smooth}, {"flat", MeshNormals::flat}};
     const std::string file = to_text(*thing.get("file"));
     const MeshNormals normals = kinds.at(to_text(*thing.get("normals")));
-    auto [place, is_new] = meshes_.try_emplace({folder_of(thing), file, normals});
+    const bool with_uv = to_bool(*thing.get("uv"));
+    auto [place, is_new] = meshes_.try_emplace({folder_of(thing), file, normals, with_uv});
     if (is_new) {
-        place->second = load_mesh(thing, file, normals);
+        place->second = load_mesh(thing, file, normals, with_uv);
     }
     if (!place->second) {
         return std::nullopt;
@@ -329,7 +343,7 @@ const std::filesystem::path& ObjectLowering::folder_of(const Thing& mesh) const 
 }
 
 std::optional<std::uint32_t> ObjectLowering::load_mesh(const Thing& thing, const std::string& file,
-                                                       MeshNormals normals) {
+                                                       MeshNormals normals, bool with_uv) {
     const lang::Span place = place_of(thing, "file");
     const std::string quoted = fmt::format("`{}`", file);
     const Asset asset = find_asset(options_.assets, folder_of(thing), file);
@@ -349,6 +363,10 @@ std::optional<std::uint32_t> ObjectLowering::load_mesh(const Thing& thing, const
         LoadedMesh loaded = compiler::load_mesh(asset.path, normals, cache_.value_or(host::Cache()));
         for (const std::string& warning : loaded.warnings) {
             diagnostics_.report(Diag::suspect_mesh, place, quoted, warning);
+        }
+        if (!with_uv) {
+            loaded.mesh.uvs = {};
+            loaded.mesh.uv_indices = {};
         }
         return add_mesh(std::move(loaded.mesh));
     } catch (const MeshError& error) {
@@ -377,9 +395,9 @@ std::optional<ir::Shape> ObjectLowering::heightfield_shape(const Thing& thing) {
 
 std::optional<std::uint32_t> ObjectLowering::make_heightfield(const Thing& thing) {
     const lang::FieldValue& field = *thing.find("field");
-    FunctionBuilder builder;
-    const std::vector<lang::Scalar> results =
-        lang::trace_at_pair(std::get<lang::ClosurePtr>(field.value.v), builder, diagnostics_);
+    FunctionBuilder builder(options_.images);
+    const std::vector<lang::Scalar> results = lang::trace_at_pair(
+        std::get<lang::ClosurePtr>(field.value.v), builder, diagnostics_, options_.images);
     if (results.size() != 1) {
         return std::nullopt;
     }
@@ -529,8 +547,26 @@ void ObjectLowering::add(const Thing& thing, const std::string& path, const Affi
     }
     if (const std::optional<ir::Shape> shape = make_shape(thing)) {
         ++count_;
-        scene_.objects.push_back(
-            {*shape, *place, materials_.sides(material, path), unique_path(path), thing.span});
+        const runtime::Sides sides = materials_.sides(material, path);
+        check_uv(*shape, sides, thing);
+        scene_.objects.push_back({*shape, *place, sides, unique_path(path), thing.span});
+    }
+}
+
+/// Whether the shape has what the functions of its materials read.
+void ObjectLowering::check_uv(const ir::Shape& shape, const runtime::Sides& sides, const Thing& thing) {
+    const auto reads_uv = [&](std::uint32_t material) {
+        return ir::material_reads(scene_, material, ir::Input::uv_x, ir::Input::uv_y);
+    };
+    if (!reads_uv(sides.front) && !reads_uv(sides.back)) {
+        return;
+    }
+    const auto* mesh = std::get_if<runtime::Mesh<double>>(&shape);
+    if (mesh != nullptr && scene_.meshes[mesh->mesh].uvs.empty()) {
+        const bool is_off = !to_bool(*thing.get("uv"));
+        diagnostics_.report(Diag::mesh_without_uv, is_off ? place_of(thing, "uv") : place_of(thing, "file"),
+                            is_off ? "the mesh has `uv = false`"
+                                   : "not all corners in the mesh's file have texture coordinates");
     }
 }
 
@@ -863,7 +899,7 @@ ir::Scene lower(const lang::Module& module, const LowerOptions& options, lang::D
     const lang::Spectrum& illuminant = illuminant_of(module);
     const Rendition rec709 = Rendition::rec709(illuminant);
     lower_settings(module, rec709, scene, diagnostics);
-    MaterialTable materials(scene, rec709, diagnostics);
+    MaterialTable materials(scene, rec709, options.images, diagnostics);
     // Holds things that the materials refer to until the end.
     ObjectLowering objects(module, options, materials, scene, diagnostics);
     objects.add_all(module.items, "", {}, nullptr);

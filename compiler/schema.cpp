@@ -81,6 +81,10 @@ Type type_of(const runtime::Vec3<double>&) {
     return TypeKind::vec3;
 }
 template <std::size_t N>
+Type type_of(const std::array<runtime::Vec2<double>, N>&) {
+    return Type::list_of(TypeKind::vec2);
+}
+template <std::size_t N>
 Type type_of(const std::array<runtime::Vec3<double>, N>&) {
     return Type::list_of(TypeKind::vec3);
 }
@@ -156,7 +160,10 @@ Constructor mesh() {
          .default_value = text("file"),
          .choices = {"file", "smooth", "flat"},
          .doc = "the file's (flat where it has none), averaged at the vertices, or one per face"},
-        unsupported("uv", TypeKind::boolean),
+        {.name = "uv",
+         .type = TypeKind::boolean,
+         .default_value = boolean(true),
+         .doc = "whether the file's texture coordinates are kept for `s.uv`"},
     };
     add_shape_fields(row);
     return row;
@@ -286,6 +293,35 @@ Constructor two_sided() {
                         .required = true,
                         .doc = "seen from the other side"}},
             .doc = "a material for each side"};
+}
+
+Constructor image() {
+    return {
+        .name = "image",
+        .type = TypeKind::image,
+        .fields = {{.name = "file",
+                    .type = TypeKind::string,
+                    .required = true,
+                    .asset = true,
+                    .doc =
+                        "any type that OpenImageIO reads, at most 16384 texels to a side; grey stands in all "
+                        "channels, alpha is left out"},
+                   {.name = "encoding",
+                    .type = TypeKind::string,
+                    .default_value = text("srgb"),
+                    .choices = {"srgb", "linear"},
+                    .doc = "of whole numbers; a file of floats holds linear light"},
+                   {.name = "wrap",
+                    .type = TypeKind::string,
+                    .default_value = text("repeat"),
+                    .choices = {"repeat", "clamp"},
+                    .doc = "beyond 0 to 1: again and again, or as at the edge"},
+                   {.name = "filter",
+                    .type = TypeKind::string,
+                    .default_value = text("bilinear"),
+                    .choices = {"bilinear", "nearest"},
+                    .doc = "between the texels' centres: blended, or the nearest one"}},
+        .doc = "a function of a vec2 that gives a colour: `wood(s.uv)`. Over (0, 0) to (1, 1), v upwards"};
 }
 
 void add_light_fields(Constructor& row) {
@@ -568,7 +604,6 @@ void add_unsupported(std::vector<Constructor>& rows) {
         {"sky_light", TypeKind::light},
         {"glass", TypeKind::material},
         {"pbr", TypeKind::material},
-        {"image", TypeKind::image},
     };
     for (const auto& [name, type] : words) {
         rows.push_back({.name = name, .type = type, .supported = false, .doc = "not supported yet"});
@@ -621,6 +656,7 @@ lang::Schema make_schema() {
                       difference,
                       phong,
                       two_sided,
+                      image,
                       point_light,
                       directional_light,
                       spot_light,

@@ -30,7 +30,8 @@ FramePtr frame_of(const CheckedFile& file, const FramePtr& outer, Storage& stora
 
 Module check(std::shared_ptr<const ast::File> file, const Schema& schema,
              const std::vector<Definition>& definitions, SourceSet& sources, Diagnostics& diagnostics,
-             const EvaluationLimits& limits, Importer* importer, std::optional<std::int64_t> frame) {
+             const EvaluationLimits& limits, Importer* importer, std::optional<std::int64_t> frame,
+             ImageSource* images) {
     ImportSession session;
     session.importer = importer;
     const FileId id = file->file;
@@ -44,7 +45,7 @@ Module check(std::shared_ptr<const ast::File> file, const Schema& schema,
     Module module;
     module.storage = storage;
     RunReport report;
-    Evaluator evaluator(limits, report);
+    Evaluator evaluator(limits, report, nullptr, images);
     const FramePtr globals = frame_of(storage->code, nullptr, *storage);
     for (const auto& [identity, tree] : session.trees) {
         module.imports.push_back(tree.file);
@@ -91,9 +92,9 @@ std::optional<std::string> evaluate_name(std::shared_ptr<const ast::File> file, 
 namespace {
 
 Components trace_with(const Value& argument, const ClosurePtr& function, SymbolBuilder& builder,
-                      Diagnostics& diagnostics) {
+                      Diagnostics& diagnostics, ImageSource* images) {
     RunReport report;
-    Evaluator evaluator({}, report, &builder);
+    Evaluator evaluator({}, report, &builder, images);
     const Span span = span_of(*function);
     const Value result = evaluator.call(*function->function, function->frame, {argument}, span);
     const Components parts = components(result);
@@ -123,18 +124,19 @@ Vector inputs(SymbolBuilder& builder) {
 
 } // namespace
 
-Components trace(const ClosurePtr& function, SymbolBuilder& builder, Diagnostics& diagnostics) {
-    return trace_with({SurfaceValue{}}, function, builder, diagnostics);
+Components trace(const ClosurePtr& function, SymbolBuilder& builder, Diagnostics& diagnostics,
+                 ImageSource* images) {
+    return trace_with({SurfaceValue{}}, function, builder, diagnostics, images);
 }
 
 std::vector<Scalar> trace_at_point(const ClosurePtr& function, SymbolBuilder& builder,
-                                   Diagnostics& diagnostics) {
-    return scalars(trace_with({inputs<Vec3Value>(builder)}, function, builder, diagnostics));
+                                   Diagnostics& diagnostics, ImageSource* images) {
+    return scalars(trace_with({inputs<Vec3Value>(builder)}, function, builder, diagnostics, images));
 }
 
 std::vector<Scalar> trace_at_pair(const ClosurePtr& function, SymbolBuilder& builder,
-                                  Diagnostics& diagnostics) {
-    return scalars(trace_with({inputs<Vec2Value>(builder)}, function, builder, diagnostics));
+                                  Diagnostics& diagnostics, ImageSource* images) {
+    return scalars(trace_with({inputs<Vec2Value>(builder)}, function, builder, diagnostics, images));
 }
 
 std::string_view name_of(const Closure& function) {

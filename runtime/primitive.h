@@ -29,6 +29,11 @@ template <class Shape>
 inline constexpr bool is_convex = requires(const Shape& s, const Ray<double>& ray) {
     s.stretch(ray);
 };
+/// Whether it has coordinates on its surface.
+template <class Shape>
+inline constexpr bool has_uv = is_mesh<Shape> || requires(const Shape& s, const Ray<double>& ray) {
+    s.uv(ray, ShapeHit<double>{}, Vec3<double>{});
+};
 /// Whether it can be a member of solids made of others.
 template <class Shape>
 inline constexpr bool is_solid = is_convex<Shape> || is_implicit<Shape> ||
@@ -244,6 +249,22 @@ Surface<L> surface_of(const S& scene, const Placed<Shape, R>& primitive, const R
         scene, primitive.shape, transform_ray(primitive.object_from_world, ray), hit, needed);
     object_point = object.point;
     return transform_surface(primitive.world_from_object, primitive.object_from_world, object);
+}
+
+/// The coordinates on the surface where the lanes in `needed` have hit this primitive at what surface_of gave
+/// as their object points.
+template <class S, class Primitive, class L>
+Vec2<L> uv_of([[maybe_unused]] const S& scene, const Primitive& primitive, const Ray<L>& ray,
+              const ShapeHit<L>& hit, [[maybe_unused]] const MaskOf<L>& needed,
+              [[maybe_unused]] const Vec3<L>& object_point) {
+    using Shape = decltype(primitive.shape);
+    if constexpr (is_mesh<Shape>) {
+        return mesh_uv(scene.meshes[primitive.shape.mesh], to_object(primitive, ray), hit, needed);
+    } else if constexpr (has_uv<Shape>) {
+        return primitive.shape.uv(to_object(primitive, ray), hit, object_point);
+    } else {
+        return {};
+    }
 }
 
 template <class S, class Shape>

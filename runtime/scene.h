@@ -39,6 +39,7 @@ struct SceneTraits {
     bool reflection = false;
     bool two_sided = false;      ///< some shape has a back material of its own
     bool functions = false;      ///< some material field is a per-point function
+    bool uv = false;             ///< some of them reads the coordinates on the surface
     bool smooth_normals = false; ///< some triangle or mesh has vertex normals
     bool shadows = false;
     bool accelerator = false; ///< enough bounded shapes that a hierarchy over them pays
@@ -49,7 +50,7 @@ struct SceneTraits {
 };
 
 inline constexpr SceneTraits everything{~0U,  ~0U,  ~0U,  ~0U,  true, true, true, true, true, true,
-                                        true, true, true, true, true, true, true, true, true, true};
+                                        true, true, true, true, true, true, true, true, true, true, true};
 
 /// What every shape in a scene carries.
 struct Tag {
@@ -173,6 +174,7 @@ struct SceneBase {
     static constexpr std::array<SpotLight<R>, 0> spot_lights{};
     static constexpr std::array<RectangleLight<R>, 0> rectangle_lights{};
     static constexpr std::array<MeshData, 0> meshes{};
+    static constexpr bool reads_uv = true; ///< where traits.uv: some function does
     static constexpr Camera<R> camera{};
     static constexpr Rgb<R> ambient{};
     static constexpr Rgb<R> background{};
@@ -224,6 +226,7 @@ struct SceneBase {
 ///             }
 ///         }
 ///         static inline std::vector<MeshData> meshes; // only with meshes: read before rendering
+///         static inline std::vector<ImageData> images; // only with images: for the functions
 ///         Accelerator accelerator;         // only with traits.accelerator: filled by prepare(scene)
 ///     };
 ///
@@ -271,6 +274,7 @@ struct DynamicScene {
     std::vector<RectangleLight<R>> rectangle_lights;
     std::vector<MeshData> meshes;
     std::vector<FunctionProgram<R>> functions; ///< Varying::function indexes it
+    bool reads_uv = false;                     ///< some function does
     Camera<R> camera;
     Rgb<R> ambient{};
     Rgb<R> background{};

@@ -201,6 +201,12 @@ private:
                 if constexpr (S::traits.functions) {
                     put(first, here, object_point, at.point.p);
                 }
+                if constexpr (S::traits.uv) {
+                    if (scene_.reads_uv) {
+                        put(first, here, uv_of(scene_, primitive, ray, hit.shape, here, object_point),
+                            at.point.uv);
+                    }
+                }
                 first = false;
             });
         if constexpr (S::traits.functions) {

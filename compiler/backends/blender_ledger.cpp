@@ -147,6 +147,16 @@ private:
                 return;
             }
         }
+        if (!scene_.functions[static_cast<std::size_t>(function)].images.empty()) {
+            add({Fidelity::approximated,
+                 fmt::format(
+                     "`{}` as Math nodes and images; bound: of what Cycles' filter of texels loses, in "
+                     "their range, as measured",
+                     name),
+                 1.5e-6},
+                fmt::format("per-point {}", field), material.name, material.span);
+            return;
+        }
         add({Fidelity::approximated,
              fmt::format("`{}` as Math nodes; bound: relative rounding of each operation", name), 6e-8},
             fmt::format("per-point {}", field), material.name, material.span);

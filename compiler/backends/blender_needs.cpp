@@ -5,7 +5,6 @@
 #include "runtime/illumination.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace scc::compiler {
@@ -21,14 +20,9 @@ constexpr int most_bounces = 1024;
 // A bounce that can add no more than this share is left out.
 constexpr double least_share = 1e-8;
 
-std::array<std::int32_t, 6> functions_of(const Phong<double>& p) {
-    return {p.ambient.function,  p.diffuse.function, p.specular.function,
-            p.emission.function, p.reflect.function, p.shininess.function};
-}
-
 template <class Wanted>
 bool some_function(const ir::Scene& scene, std::uint32_t material, Wanted wanted) {
-    const auto functions = functions_of(scene.materials[material].phong);
+    const auto functions = ir::functions_of(scene.materials[material].phong);
     return std::any_of(functions.begin(), functions.end(), [&](std::int32_t index) {
         return index != runtime::no_function && wanted(scene.functions[static_cast<std::size_t>(index)]);
     });
@@ -260,10 +254,23 @@ private:
         if (is_present(phong.emission)) {
             want("emission");
         }
-        for (const std::int32_t function : functions_of(phong)) {
+        for (const std::int32_t function : ir::functions_of(phong)) {
             if (function != runtime::no_function) {
                 needs_.functions[static_cast<std::size_t>(function)] = true;
                 want("function");
+                add(scene_.functions[static_cast<std::size_t>(function)]);
+            }
+        }
+    }
+
+    void add(const ir::Function& function) {
+        if (function.reads(Input::uv_x, Input::uv_y)) {
+            want("uv");
+        }
+        for (const std::shared_ptr<const ir::Image>& image : function.images) {
+            want("image");
+            if (std::find(needs_.images.begin(), needs_.images.end(), image.get()) == needs_.images.end()) {
+                needs_.images.push_back(image.get());
             }
         }
     }

@@ -5,6 +5,8 @@
 #include "compiler/backends/blender_python.h"
 #include "compiler/ir/objects.h"
 
+#include <map>
+
 namespace scc::compiler {
 
 namespace {
@@ -21,6 +23,7 @@ public:
         write_constants();
         write_camera();
         write_lights();
+        write_images();
         write_functions();
         write_materials();
         write_meshes();
@@ -98,6 +101,25 @@ private:
         return light.diffuse == light.specular ? diffuse : diffuse + ", specular=" + python(light.specular);
     }
 
+    void write_images() {
+        if (needs_packing(scene_, needs_)) {
+            write_unpacking(out_);
+        }
+        if (!has("image")) {
+            return;
+        }
+        Identifiers identifiers("");
+        out_.line("IMAGES = {{");
+        out_.indent();
+        for (const ir::Image* image : needs_.images) {
+            const std::string key = identifiers.make(image->name);
+            image_keys_.emplace(image, key);
+            write_image(out_, *image, key);
+        }
+        out_.dedent();
+        out_.line("}}");
+    }
+
     void write_functions() {
         if (!has("function")) {
             return;
@@ -108,7 +130,11 @@ private:
                 keys_[i] = identifiers.make(scene_.functions[i].name);
                 out_.blank();
                 out_.blank();
-                write_function(out_, scene_.functions[i], keys_[i]);
+                std::vector<std::string> images;
+                for (const std::shared_ptr<const ir::Image>& image : scene_.functions[i].images) {
+                    images.push_back(image_keys_.at(image.get()));
+                }
+                write_function(out_, scene_.functions[i], keys_[i], std::move(images));
             }
         }
         out_.blank();
@@ -165,14 +191,11 @@ private:
         if (!has("mesh")) {
             return;
         }
-        if (needs_packing(scene_, needs_)) {
-            write_unpacking(out_);
-        }
         out_.line("MESHES = {{");
         out_.indent();
         for (std::size_t i = 0; i < scene_.meshes.size(); ++i) {
             if (needs_.meshes[i]) {
-                write_mesh(out_, scene_.meshes[i]);
+                write_mesh(out_, scene_.meshes[i], has("uv"));
             }
         }
         out_.dedent();
@@ -252,6 +275,7 @@ private:
     Writer& out_;
     const ir::Scene& scene_;
     const BlenderNeeds& needs_;
+    std::map<const ir::Image*, std::string> image_keys_;
     std::vector<std::string> keys_; ///< of each function: its name in Python
 };
 

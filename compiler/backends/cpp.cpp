@@ -39,6 +39,10 @@ std::string literal(bool v) {
     return v ? "true" : "false";
 }
 template <class R>
+std::string literal(const runtime::Vec2<R>& v) {
+    return fmt::format("{{{}, {}}}", literal(v.x), literal(v.y));
+}
+template <class R>
 std::string literal(const Vec3<R>& v) {
     return fmt::format("{{{}, {}, {}}}", literal(v.x), literal(v.y), literal(v.z));
 }
@@ -203,7 +207,7 @@ private:
     void colored_table(const std::string& row_type, const std::string& name, const std::vector<T>& rows);
     void traits();
     void primitives();
-    std::string node_spelling(const ir::Node& node, std::string_view point);
+    std::string node_spelling(const ir::Function& function, const ir::Node& node, std::string_view point);
     /// One function of the scene type for those in `which`; its parameter is the point's name in the bodies.
     void functions(const std::vector<std::size_t>& which, const char* result_type, const char* name,
                    const char* parameter, std::string_view point);
@@ -211,6 +215,7 @@ private:
     void field_functions();
     std::vector<bool> are_fields() const;
     void meshes();
+    void images();
     void scene_type();
     void program();
 
@@ -224,6 +229,7 @@ private:
     host::ValuesWriter values_;
     std::vector<std::string> reads_; // statements of `load`, in the order of the values
     std::vector<R> function_constants_;
+    std::vector<const ir::Image*> images_ = ir::images_of(scene_);
     std::vector<std::string> colored_; // tables of which each band has its own
     Writer out_;
 };
@@ -331,7 +337,8 @@ std::vector<bool> Emitter<R>::are_fields() const {
 }
 
 template <class R>
-std::string Emitter<R>::node_spelling(const ir::Node& node, std::string_view point) {
+std::string Emitter<R>::node_spelling(const ir::Function& function, const ir::Node& node,
+                                      std::string_view point) {
     switch (node.kind) {
     case ir::Node::Kind::constant:
         if (in_code_) {
@@ -341,6 +348,12 @@ std::string Emitter<R>::node_spelling(const ir::Node& node, std::string_view poi
         return fmt::format("L(function_constants[{}])", function_constants_.size() - 1);
     case ir::Node::Kind::input:
         return fmt::format("{}{}", point, ir::name(node.input));
+    case ir::Node::Kind::image: {
+        const ir::Image* image = function.images[node.image].get();
+        return fmt::format("image_channel(images[{}], {}, v{}, v{})",
+                           std::find(images_.begin(), images_.end(), image) - images_.begin(), node.channel,
+                           node.operands[0], node.operands[1]);
+    }
     case ir::Node::Kind::apply:
         break;
     }
@@ -387,7 +400,7 @@ void Emitter<R>::functions(const std::vector<std::size_t>& which, const char* re
         out_.line("case {}: {{{}", i, in_code_ ? " // " + comment_text(function.name) : "");
         out_.indent();
         for (std::size_t k = 0; k < function.nodes.size(); ++k) {
-            out_.line("const L v{} = {};", k, node_spelling(function.nodes[k], point));
+            out_.line("const L v{} = {};", k, node_spelling(function, function.nodes[k], point));
         }
         std::string returned;
         for (const std::uint32_t result : function.results) {
@@ -422,6 +435,7 @@ void Emitter<R>::scene_type() {
         read_member("function_constants");
     }
     meshes();
+    images();
     if (scene_.traits.accelerator || any_scene_) {
         out_.raw_line("Accelerator accelerator;");
     }
@@ -497,10 +511,28 @@ void Emitter<R>::meshes() {
     for (const ir::Mesh& mesh : scene_.meshes) {
         built.push_back(build_mesh(mesh, {.threads = host::core_count()}));
         data.push_back(built.back().data);
+        if (!scene_.traits.uv) {
+            data.back().uvs = nullptr;
+            data.back().uv_count = 0;
+        }
     }
     out_.raw_line("static inline std::vector<MeshData> meshes;");
     values_.add(data);
     read_member("meshes");
+}
+
+template <class R>
+void Emitter<R>::images() {
+    if (images_.empty()) {
+        return;
+    }
+    std::vector<runtime::ImageData> data;
+    for (const ir::Image* image : images_) {
+        data.push_back(image->data);
+    }
+    out_.raw_line("static inline std::vector<ImageData> images;");
+    values_.add(data);
+    read_member("images");
 }
 
 template <class R>

@@ -159,6 +159,19 @@ InputRanges input_ranges(const ir::Object& object, const ir::Scene& scene) {
         set(ir::Input::world_x, transform_bounds(object.world_from_object, *bounds));
     }
     set(ir::Input::n_x, {{-1, -1, -1}, {1, 1, 1}});
+    if (const auto* mesh = std::get_if<runtime::Mesh<double>>(&object.shape)) {
+        const std::span<const float> uvs = scene.meshes[mesh->mesh].uvs;
+        for (const ir::Input input : {ir::Input::uv_x, ir::Input::uv_y}) {
+            // Between the corners it is interpolated.
+            Range range{0, 0};
+            for (std::size_t i = input == ir::Input::uv_x ? 0 : 1; i < uvs.size(); i += 2) {
+                const double value = uvs[i];
+                range = i < 2 ? Range{value, value}
+                              : Range{std::min(range.min, value), std::max(range.max, value)};
+            }
+            ranges[static_cast<std::size_t>(input)] = range;
+        }
+    }
     return ranges;
 }
 

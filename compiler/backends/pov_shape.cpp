@@ -205,16 +205,24 @@ runtime::Bounds<double> pov_field_box(const runtime::Container<double>& containe
     return box;
 }
 
-void declare_mesh(const ir::Mesh& mesh, const std::string& name, Writer& out) {
+void declare_mesh(const ir::Mesh& mesh, const std::string& name, bool with_uvs, Writer& out) {
     out.line("#declare {} = mesh2 {{", name);
     out.indent();
     list_vectors(out, "vertex_vectors", mesh.positions, static_cast<float>(mesh_scale(mesh)));
     if (!mesh.normals.empty()) {
         list_vectors(out, "normal_vectors", mesh.normals, 1);
     }
+    const bool has_uvs = with_uvs && !mesh.uvs.empty();
+    if (has_uvs) {
+        list(out, "uv_vectors", mesh.uvs.size() / 2,
+             [&](std::size_t i) { return fmt::format("<{}, {}>", mesh.uvs[2 * i], mesh.uvs[2 * i + 1]); });
+    }
     list_faces(out, "face_indices", mesh.indices);
     if (!mesh.normals.empty()) {
         list_faces(out, "normal_indices", mesh.normal_indices);
+    }
+    if (has_uvs) {
+        list_faces(out, "uv_indices", mesh.uv_indices);
     }
     out.dedent();
     out.line("}}");

@@ -85,6 +85,7 @@ std::shared_ptr<OwnedScene<R>> build(const ir::Scene& scene, std::shared_ptr<con
     for (const ir::Function& function : scene.functions) {
         out.functions.push_back(program_of<R>(function));
     }
+    out.reads_uv = scene.traits.uv;
     out.camera = convert(scene.camera, R{});
     out.ambient = convert(scene.ambient, R{});
     out.background = convert(scene.background, R{});

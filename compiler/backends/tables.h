@@ -30,6 +30,14 @@ bool convert(bool v, R) {
     return v;
 }
 template <class R, std::size_t N>
+std::array<runtime::Vec2<R>, N> convert(const std::array<runtime::Vec2<double>, N>& list, R) {
+    std::array<runtime::Vec2<R>, N> result;
+    for (std::size_t i = 0; i < N; ++i) {
+        result[i] = {static_cast<R>(list[i].x), static_cast<R>(list[i].y)};
+    }
+    return result;
+}
+template <class R, std::size_t N>
 std::array<runtime::Vec3<R>, N> convert(const std::array<runtime::Vec3<double>, N>& list, R real) {
     std::array<runtime::Vec3<R>, N> result;
     for (std::size_t i = 0; i < N; ++i) {

@@ -30,10 +30,13 @@ std::string text(const Vec3<double>& v) {
 std::string text(const Rgb<double>& c) {
     return fmt::format("rgb({}, {}, {})", c.r, c.g, c.b);
 }
-template <std::size_t N>
-std::string text(const std::array<Vec3<double>, N>& list) {
+std::string text(const runtime::Vec2<double>& v) {
+    return fmt::format("({}, {})", v.x, v.y);
+}
+template <class T, std::size_t N>
+std::string text(const std::array<T, N>& list) {
     std::string result;
-    for (const Vec3<double>& v : list) {
+    for (const T& v : list) {
         result += (result.empty() ? "[" : ", ") + text(v);
     }
     return result + "]";
@@ -65,6 +68,10 @@ void print_function(Writer& out, const Function& function, std::size_t index) {
             for (int k = 0; k < row(node.op).arity; ++k) {
                 what += fmt::format(" %{}", node.operands[static_cast<std::size_t>(k)]);
             }
+            break;
+        case Node::Kind::image:
+            what = fmt::format("image {}.{} %{} %{}", quote(Language::cpp, function.images[node.image]->name),
+                               "rgb"[node.channel], node.operands[0], node.operands[1]);
             break;
         }
         out.line("%{} = {}", i, what);

@@ -29,6 +29,7 @@ inline constexpr auto trait_flags = std::to_array<TraitFlag>({
     {"reflection", &runtime::SceneTraits::reflection},
     {"two_sided", &runtime::SceneTraits::two_sided},
     {"functions", &runtime::SceneTraits::functions},
+    {"uv", &runtime::SceneTraits::uv},
     {"smooth_normals", &runtime::SceneTraits::smooth_normals},
     {"shadows", &runtime::SceneTraits::shadows},
     {"accelerator", &runtime::SceneTraits::accelerator},

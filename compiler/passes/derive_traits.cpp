@@ -48,13 +48,17 @@ void need(SceneTraits& traits, const ir::ObjectColumn& column) {
     }
 }
 
-void need(SceneTraits& traits, const runtime::Phong<double>& p, int depth) {
+void need(SceneTraits& traits, const runtime::Phong<double>& p, const ir::Scene& scene) {
     traits.specular |= is_present(p.specular);
     traits.emission |= is_present(p.emission);
-    traits.reflection |= depth > 0 && is_present(p.reflect);
+    traits.reflection |= scene.settings.depth > 0 && is_present(p.reflect);
     for (const std::int32_t function : {p.ambient.function, p.diffuse.function, p.specular.function,
                                         p.emission.function, p.reflect.function, p.shininess.function}) {
-        traits.functions |= function != runtime::no_function;
+        if (function != runtime::no_function) {
+            traits.functions = true;
+            traits.uv |=
+                scene.functions[static_cast<std::size_t>(function)].reads(ir::Input::uv_x, ir::Input::uv_y);
+        }
     }
 }
 
@@ -117,9 +121,9 @@ std::vector<Need> needs_of(const ir::Scene& scene) {
     }
     for (const ir::Material& material : scene.materials) {
         SceneTraits& traits = needs.emplace_back(SceneTraits{}, material.span).traits;
-        need(traits, material.phong, scene.settings.depth);
+        need(traits, material.phong, scene);
         for (const runtime::Phong<double>& phong : material.bands) {
-            need(traits, phong, scene.settings.depth);
+            need(traits, phong, scene);
         }
     }
     for (const ir::Light& light : scene.lights) {

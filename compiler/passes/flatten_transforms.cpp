@@ -118,6 +118,7 @@ bool flatten(runtime::Triangle<double>& t, const Affine<double>& a) {
     if (determinant(a) < 0) { // a mirror turns the order of the corners round; the front stays the front
         std::swap(t.points[1], t.points[2]);
         std::swap(t.normals[1], t.normals[2]);
+        std::swap(t.uvs[1], t.uvs[2]);
     }
     return true;
 }
@@ -138,17 +139,10 @@ bool flatten(runtime::Implicit<double>&, const Affine<double>&) {
     return false; // the field is a function of the object's own coordinates
 }
 
-// A function of the object's own coordinates needs them at run time.
+// A function of the object's own coordinates, or of those on its surface, needs them at run time.
 bool reads_object_space(const ir::Scene& scene, std::uint32_t material) {
-    const runtime::Phong<double>& p = scene.materials[material].phong;
-    for (const std::int32_t index : {p.ambient.function, p.diffuse.function, p.specular.function,
-                                     p.emission.function, p.reflect.function, p.shininess.function}) {
-        if (index >= 0 &&
-            scene.functions[static_cast<std::size_t>(index)].reads(ir::Input::p_x, ir::Input::p_z)) {
-            return true;
-        }
-    }
-    return false;
+    return ir::material_reads(scene, material, ir::Input::p_x, ir::Input::p_z) ||
+           ir::material_reads(scene, material, ir::Input::uv_x, ir::Input::uv_y);
 }
 
 /// Whether a form allows it depends on the transform, and on what all shapes of a column have in common.

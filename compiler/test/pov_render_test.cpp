@@ -35,10 +35,14 @@ protected:
     /// With the exposure that keeps the brightest pixel below 1, undone afterwards.
     Image theirs(const ir::Scene& scene, double exposure) {
         Ledger ledger;
-        test::save(folder_ / "scene.pov", emit_pov(scene, ledger));
+        ExportFiles beside{.stem = "scene"};
+        test::save(folder_ / "scene.pov", emit_pov(scene, ledger, beside));
+        for (const ExportFiles::File& file : beside.files) {
+            test::save(folder_ / file.name, file.bytes);
+        }
         const std::string picture = (folder_ / "scene.png").string();
         const std::string command =
-            "povray +I" + (folder_ / "scene.pov").string() + " +O" + picture + " +W" +
+            "cd " + (folder_ / "").string() + " && povray +Iscene.pov +Oscene.png +W" +
             std::to_string(scene.settings.width) + " +H" + std::to_string(scene.settings.height) +
             " +FN16 File_Gamma=1.0 -A -D +WT1 Declare=scc_exposure=" + std::to_string(exposure);
         EXPECT_EQ(test::run(command), 0) << command;
@@ -322,6 +326,19 @@ TEST_F(PovRender, AcceptsNamesThatAreCode) {
     c.scene.settings.width = 8;
     c.scene.settings.height = 6;
     theirs(c.scene, 1);
+}
+
+TEST_F(PovRender, NoiseAndRandomComeFromTables) {
+    expect_same_picture(camera + lamp + R"(
+world { ambient = rgb(0.3, 0.3, 0.3) }
+fn worn(s: surface) -> color = rgb(0.8, 0.6, 0.3) * (1 - 0.7 * noise(s.p * 6))
+fn windy(s: surface) -> color = rgb(noise(s.world * 3), noise((4 * s.p.x, -2 * s.p.y)), 0.5)
+fn tiled(s: surface) -> color = rgb(1, 1, 1) * random(floor(4 * s.p.x), floor(4 * s.p.y) + 0 * 3, 7)
+sphere { radius = 1.1, material = phong { diffuse = worn }, transform = scale(1, 0.8, 1) then translate(-2, 0.8, 0) }
+box { max = (1, 1.01, 1), material = phong { diffuse = tiled }, transform = rotate_y(20deg) then translate(0.6, 0.6, -0.5) }
+cone { radius_from = 1, material = phong { diffuse = windy }, transform = scale(1, 1.5, 1) then translate(2.6, 0, 1) }
+)",
+                        4);
 }
 
 } // namespace

@@ -21,6 +21,12 @@ struct Implicit {
     Container<R> within{};
 
     constexpr Bounds<R> bounds() const { return within.bounds(); }
+
+    /// As POV-Ray has it for what has no coordinates of its own.
+    template <class L>
+    constexpr Vec2<L> uv(const Ray<L>&, const ShapeHit<L>&, const Vec3<L>& point) const {
+        return {point.x, point.y};
+    }
 };
 
 /// Of the rays since the thread began: those for which it remained open somewhere, within rounding, whether

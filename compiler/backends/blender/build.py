@@ -21,7 +21,11 @@ def fresh_scene():
     for old in [s for s in bpy.data.scenes if s.get(TAG) == NAME]:
         bpy.data.scenes.remove(old)
     for pool in (bpy.data.objects, bpy.data.meshes, bpy.data.lights, bpy.data.cameras, bpy.data.materials,
-                 bpy.data.node_groups, bpy.data.worlds, bpy.data.collections):
+                 bpy.data.node_groups, bpy.data.worlds, bpy.data.collections,
+                 #: image
+                 bpy.data.images,
+                 #: end
+                 ):
         for block in [b for b in pool if b.get(TAG) == NAME]:
             pool.remove(block)
     scene.name = short(NAME)
@@ -40,6 +44,23 @@ def new_object(collection, name, data):
     return ob
 
 
+#: image
+@functools.lru_cache(maxsize=None)
+def image_data(name):
+    """Floats of linear light, so that Cycles blends what we blend."""
+    entry = IMAGES[name]
+    width, height = entry["size"]
+    light = np.asarray(entry["light_of_code"])[entry["texels"]] if "light_of_code" in entry else entry["texels"]
+    pixels = np.ones((width * height, 4), np.float32)
+    pixels[:, :3] = np.reshape(light, (width * height, -1))
+    image = own(bpy.data.images.new(short(name), width, height, alpha=True, float_buffer=True))
+    image.colorspace_settings.name, image.alpha_mode = "Non-Color", "CHANNEL_PACKED"
+    image.pixels.foreach_set(pixels.ravel())
+    image.pack()
+    return image
+
+
+#: end
 #: function
 @functools.lru_cache(maxsize=None)
 def function_group(name):
@@ -72,7 +93,7 @@ def one_side(g, name, hit):
     #: function
     for key, value in fields.items():
         if isinstance(value, str):
-            outputs = dict(p="P", world="Position", n="Outward")
+            outputs = dict(p="P", world="Position", n="Outward", uv="UV")
             points = {read: hit[outputs[read]] for read in FUNCTIONS[value][1]}
             fields[key] = g.group(function_group(value), **points)["Result"]
     #: end

@@ -46,6 +46,14 @@ def set_normals(mesh, normals):
 
 
 #: end
+#: uv
+def set_uvs(mesh, uvs):
+    """One pair per corner, interpolated by the material."""
+    attribute = mesh.attributes.new("scc_uv", "FLOAT_VECTOR", "CORNER")
+    attribute.data.foreach_set("vector", np.pad(np.asarray(uvs, np.float32), ((0, 0), (0, 1))).ravel())
+
+
+#: end
 #: curved disc
 def apparent_radius(o, center, radius):
     """In pixels; of the whole picture where the camera is inside."""
@@ -243,6 +251,10 @@ def mesh_mesh(o):
     #: smooth
     if "normals" in m:
         set_normals(mesh, np.reshape(m["normals"], (-1, 3))[np.ravel(m["normal_indices"])])
+    #: end
+    #: uv
+    if "uvs" in m:
+        set_uvs(mesh, np.reshape(m["uvs"], (-1, 2))[np.ravel(m["uv_indices"])])
     #: end
     return mesh
 

@@ -2,7 +2,11 @@
 # One node group per kind of surface says where the ray really hit. Position: in the world. Normal: unit, in the
 # world, facing the viewer. Outward: the same, pointing to the front side. Back: 1 where the back side is seen.
 # P: in the coordinates that the shape was written in.
-HIT = dict(Position="Vector", Normal="Vector", Outward="Vector", Back="Float", P="Vector")
+HIT = dict(Position="Vector", Normal="Vector", Outward="Vector", Back="Float", P="Vector",
+           #: uv
+           UV="Vector",
+           #: end
+           )
 
 
 #: flat
@@ -14,6 +18,9 @@ def flat_hit(o=None):
     g.put(out["Outward"], g.v("SCALE", geometry["Normal"], front_sign(g, geometry)))
     g.put(out["Back"], geometry["Backfacing"])
     g.put(out["P"], g.add("ShaderNodeTexCoord").outputs["Object"])
+    #: uv
+    g.put(out["UV"], g.attribute("GEOMETRY", "scc_uv"))
+    #: end
     return g.tree
 
 
@@ -172,6 +179,9 @@ def smooth_hit(o=None):
     g.put(out["Outward"], g.v("SCALE", geometry["Normal"], front_sign(g, geometry)))
     g.put(out["Back"], geometry["Backfacing"])
     g.put(out["P"], g.add("ShaderNodeTexCoord").outputs["Object"])
+    #: uv
+    g.put(out["UV"], g.attribute("GEOMETRY", "scc_uv"))
+    #: end
     return g.tree
 
 
