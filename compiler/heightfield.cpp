@@ -45,6 +45,8 @@ public:
             for (std::size_t i = 0; i < columns_; ++i) {
                 append(arrays.positions, {x(i), at(i, j), z(j)});
                 append(arrays.normals, normal(i, j));
+                arrays.uvs.insert(arrays.uvs.end(), {static_cast<float>(part(i, columns_)),
+                                                     static_cast<float>(part(j, rows_))});
             }
         }
         arrays.indices.reserve(6 * (columns_ - 1) * (rows_ - 1));
@@ -57,6 +59,7 @@ public:
             }
         }
         arrays.normal_indices = arrays.indices;
+        arrays.uv_indices = arrays.indices;
         return arrays;
     }
 

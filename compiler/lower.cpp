@@ -396,8 +396,8 @@ std::optional<ir::Shape> ObjectLowering::heightfield_shape(const Thing& thing) {
 std::optional<std::uint32_t> ObjectLowering::make_heightfield(const Thing& thing) {
     const lang::FieldValue& field = *thing.find("field");
     FunctionBuilder builder(options_.images);
-    const std::vector<lang::Scalar> results = lang::trace_at_pair(
-        std::get<lang::ClosurePtr>(field.value.v), builder, diagnostics_, options_.images);
+    const std::vector<lang::Scalar> results = lang::trace_at_pair(std::get<lang::ClosurePtr>(field.value.v),
+                                                                  builder, diagnostics_, options_.images);
     if (results.size() != 1) {
         return std::nullopt;
     }
