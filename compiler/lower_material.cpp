@@ -162,10 +162,10 @@ Varying<double> MaterialTable::scalar(const Thing& phong, std::string_view field
 }
 
 MaterialTable::Traced& MaterialTable::traced(const lang::ClosurePtr& closure) {
-    const auto [found, is_new] = functions_.try_emplace(closure.get());
+    const auto [found, is_new] = functions_.try_emplace(closure.get(), images_);
     Traced& traced = found->second;
     if (is_new) {
-        traced.result = lang::trace(closure, traced.builder, diagnostics_);
+        traced.result = lang::trace(closure, traced.builder, diagnostics_, images_);
         has_spectra_ = has_spectra_ || traced.result.spectral;
     }
     return traced;

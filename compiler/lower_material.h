@@ -1,6 +1,7 @@
 #pragma once
 
 #include "compiler/function_builder.h"
+#include "compiler/image_table.h"
 #include "compiler/ir/scene.h"
 #include "compiler/rendition.h"
 #include "lang/check.h"
@@ -22,8 +23,9 @@ namespace scc::compiler {
 /// Gives every material value of a scene its place in the IR's table; a value used often is stored once.
 class MaterialTable {
 public:
-    MaterialTable(ir::Scene& scene, const Rendition& rec709, lang::Diagnostics& diagnostics)
-        : scene_(scene), rec709_(rec709), diagnostics_(diagnostics) {}
+    MaterialTable(ir::Scene& scene, const Rendition& rec709, ImageTable* images,
+                  lang::Diagnostics& diagnostics)
+        : scene_(scene), rec709_(rec709), images_(images), diagnostics_(diagnostics) {}
 
     /// `owner` names a material that has no name of its own. A null thing is the default material.
     runtime::Sides sides(const lang::Thing* material, const std::string& owner);
@@ -56,6 +58,8 @@ private:
     using Key = std::tuple<const Rendition*, ColorRole, Covering, double, const lang::Closure*>;
     /// A per-point function, and what became of it by the treatment of its results.
     struct Traced {
+        explicit Traced(ImageTable* images) : builder(images) {}
+
         FunctionBuilder builder;
         lang::Components result;
         std::map<const lang::Closure*, lang::Scalar> opacities; ///< in the same builder
@@ -93,6 +97,7 @@ private:
 
     ir::Scene& scene_;
     const Rendition& rec709_;
+    ImageTable* images_;
     lang::Diagnostics& diagnostics_;
     bool has_spectra_ = false;
     std::map<const lang::Thing*, std::uint32_t> known_;

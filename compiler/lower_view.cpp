@@ -140,9 +140,11 @@ ir::LightColors colors_of(const Thing& light, const Rendition& by) {
     return {diffuse, specular != nullptr ? by.rendered(specular->value, ColorRole::light) : diffuse};
 }
 
-runtime::PointLight<double> point_light(const Thing& thing, lang::Diagnostics& diagnostics) {
+/// What all lights have that shine from points.
+runtime::PointLight<double> source_at(const Thing& thing, const char* position,
+                                      lang::Diagnostics& diagnostics) {
     runtime::PointLight<double> light;
-    light.position = to_vec3(*thing.get("position"));
+    light.position = to_vec3(*thing.get(position));
     const Vec3<double> k = to_vec3(*thing.get("attenuation"));
     light.kc = k.x;
     light.kl = k.y;
@@ -151,6 +153,43 @@ runtime::PointLight<double> point_light(const Thing& thing, lang::Diagnostics& d
         diagnostics.report(Diag::impossible_light, place_of(thing, "attenuation"),
                            "the attenuation is (0, 0, 0); one of kc, kl, kq is greater than 0");
     }
+    return light;
+}
+
+runtime::SpotLight<double> spot_light(const Thing& thing, lang::Diagnostics& diagnostics) {
+    runtime::SpotLight<double> light{source_at(thing, "position", diagnostics)};
+    const Vec3<double> axis = to_vec3(*thing.get("target")) - light.position;
+    if (!(length(axis) > 0)) {
+        diagnostics.report(Diag::impossible_light, place_of(thing, "target"),
+                           "`target` lies at `position`; a spot light shines from the one to the other");
+        return light;
+    }
+    const double inner = to_radians(*thing.get("inner")), outer = to_radians(*thing.get("outer"));
+    if (inner > outer) {
+        const double degrees = 180 / std::numbers::pi;
+        diagnostics.report(Diag::impossible_light, place_of(thing, thing.find("inner") ? "inner" : "outer"),
+                           fmt::format("inner is {:.6g}deg and outer is {:.6g}deg; the light fades from "
+                                       "`inner` to `outer`, which is not less",
+                                       inner * degrees, outer * degrees));
+    }
+    light.axis = normalize(axis);
+    light.cos_inner = std::cos(inner);
+    light.cos_outer = std::cos(outer);
+    light.exponent = to_number(*thing.get("exponent"));
+    return light;
+}
+
+runtime::RectangleLight<double> rectangle_light(const Thing& thing, lang::Diagnostics& diagnostics) {
+    runtime::RectangleLight<double> light{source_at(thing, "corner", diagnostics)};
+    light.edge_u = to_vec3(*thing.get("edge_u"));
+    light.edge_v = to_vec3(*thing.get("edge_v"));
+    if (!(length(cross(normalize(light.edge_u), normalize(light.edge_v))) > 1e-12)) {
+        diagnostics.report(Diag::impossible_light, place_of(thing, "edge_v"),
+                           "`edge_u` and `edge_v` are parallel; they span a rectangle");
+    }
+    const auto& samples = std::get<lang::Vec2Value>(thing.get("samples")->v).v;
+    light.nu = static_cast<std::uint32_t>(samples[0].value);
+    light.nv = static_cast<std::uint32_t>(samples[1].value);
     return light;
 }
 
@@ -253,8 +292,13 @@ void lower_lights(const lang::Module& module, const Rendition& rec709, ir::Scene
     std::set<std::string> names;
     for (const Thing* thing : enabled_lights(module)) {
         ir::Light light{.light = {}, .name = unique_light_name(*thing, names), .span = thing->span};
-        if (thing->constructor->name == "point_light") {
-            light.light = point_light(*thing, diagnostics);
+        const std::string_view kind = thing->constructor->name;
+        if (kind == "point_light") {
+            light.light = source_at(*thing, "position", diagnostics);
+        } else if (kind == "spot_light") {
+            light.light = spot_light(*thing, diagnostics);
+        } else if (kind == "rectangle_light") {
+            light.light = rectangle_light(*thing, diagnostics);
         } else {
             light.light = directional_light(*thing, diagnostics);
         }

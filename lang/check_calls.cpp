@@ -214,8 +214,12 @@ Typed Checker::value_call(const ast::Call& node, Span span, const Place& place) 
         return {};
     }
     if (callee.type.kind == TypeKind::image) {
-        diagnostics_.report(Diag::not_supported_yet, span, "a call of an image");
-        return {};
+        if (!argument_count(1, "an image", node, span)) {
+            return {TypeKind::color, nullptr};
+        }
+        expect("an image", TypeKind::vec2, values[0], *node.arguments[0].value);
+        return {TypeKind::color,
+                make_code(code::ImageCall{std::move(callee.code), std::move(values[0].code)}, span)};
     }
     if (callee.type.kind != TypeKind::function) {
         diagnostics_.report(Diag::not_callable, node.callee->span, described(callee.type));

@@ -122,6 +122,30 @@ Value Evaluator::run(const code::Call& node, Span span, const FramePtr& frame) {
     return complete ? call(*closure.function, closure.frame, std::move(arguments), span) : failed();
 }
 
+Value Evaluator::run(const code::ImageCall& node, Span span, const FramePtr& frame) {
+    const Value image = eval(*node.image, frame), place = eval(*node.uv, frame);
+    if (is_error(image) || is_error(place)) {
+        return failed();
+    }
+    const ThingPtr& thing = std::get<ThingPtr>(image.v);
+    const Components uv = components(place);
+    if (!is_constant(uv)) {
+        locate(span);
+        const auto channels = math_.builder()->image(thing, {uv[0], uv[1]});
+        if (!channels && recording()) {
+            cannot_record();
+        }
+        return channels ? compose(TypeKind::color, *channels) : failed();
+    }
+    if (images_ == nullptr) {
+        report_.report(Diag::not_supported_yet, span, "the content of an image here");
+        return failed();
+    }
+    const auto color = images_->color(thing, uv[0].value, uv[1].value);
+    return color ? compose(TypeKind::color, {Scalar{(*color)[0]}, Scalar{(*color)[1]}, Scalar{(*color)[2]}})
+                 : failed();
+}
+
 /// Both branches of a condition that depends on the surface are evaluated, so a call of the same function in
 /// one of them would never end.
 bool Evaluator::recurses_by_surface(const FunctionCode& function) const {

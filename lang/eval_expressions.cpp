@@ -265,12 +265,13 @@ Value Evaluator::run(const code::SurfaceInput& node, Span, const FramePtr& frame
     if (is_error(eval(*node.object, frame))) {
         return failed();
     }
+    const TypeKind kind = node.name == "uv" ? TypeKind::vec2 : TypeKind::vec3;
     std::array<Scalar, 3> v;
     constexpr std::array<std::string_view, 3> axes{".x", ".y", ".z"};
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < (kind == TypeKind::vec2 ? 2 : 3); ++i) {
         v[i] = {0, math_.builder()->input(std::string(node.name) + std::string(axes[i]))};
     }
-    return compose(TypeKind::vec3, v);
+    return compose(kind, v);
 }
 
 Value Evaluator::run(const code::Index& node, Span, const FramePtr& frame) {

@@ -116,6 +116,12 @@ public:
     virtual std::uint32_t input(std::string_view name) = 0;
     /// `op` is the operator's name as in the runtime's operator table (add, mod, floor, select, ...).
     virtual std::uint32_t apply(std::string_view op, const std::vector<std::uint32_t>& operands) = 0;
+    /// The channels of an `image { }` at (u, v), if the builder can express that. A failure to read it is
+    /// reported by the builder.
+    virtual std::optional<std::array<Scalar, 3>> image(const ThingPtr& /*image*/,
+                                                       const std::array<Scalar, 2>& /*uv*/) {
+        return std::nullopt;
+    }
     /// Where the operations that follow were written.
     virtual void locate(Span /*span*/) {}
 

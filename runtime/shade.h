@@ -85,9 +85,20 @@ public:
                 refracts_ = refracts_ || refracts(material);
             }
         }
+        if constexpr (S::traits.rectangle_lights) {
+            for (const auto& light : scene.rectangle_lights) {
+                for_each_point(light, [&](const PointLight<R>& point) { grid_points_.push_back(point); });
+            }
+        }
         if constexpr (S::traits.shadows && !has_hierarchy<S>) {
             const auto balls = primitive_balls(scene);
             for (const auto& light : scene.point_lights) {
+                point_occluders_.emplace_back(balls, light);
+            }
+            for (const auto& light : scene.spot_lights) {
+                point_occluders_.emplace_back(balls, light);
+            }
+            for (const auto& light : grid_points_) {
                 point_occluders_.emplace_back(balls, light);
             }
             for (const auto& light : scene.directional_lights) {
@@ -193,37 +204,43 @@ private:
     void meet(const Ray<L>& ray, const Hit<L>& hit, Pack& pack) const {
         Encounter<L>& at = pack.at;
         bool first = true;
-        for_each_primitive(scene_, hit, pack.active,
-                           [&](const auto& primitive, const Mask& here, [[maybe_unused]] const auto inverted,
-                               [[maybe_unused]] std::uint32_t body) {
-                               Vec3<L> object_point;
-                               Surface<L> surface =
-                                   surface_of(scene_, primitive, ray, hit.shape, here, object_point);
-                               if constexpr (uses_csg(S::traits)) {
-                                   surface = inverted ? turned_over(surface) : surface;
-                               }
-                               const Mask back = dot(surface.normal, ray.dir) > 0;
-                               const Vec3<L> normal = choose(dot(surface.shading_normal, ray.dir) > 0,
-                                                             -surface.shading_normal, surface.shading_normal);
-                               const Sides& sides = primitive.tag.sides;
-                               using Index = IndexOf<L>;
-                               const Index material =
-                                   S::traits.two_sided ? choose(back, Index(sides.back), Index(sides.front))
-                                                       : Index(sides.front);
-                               // Value by value, since whole structures would be copied through memory.
-                               put(first, here, surface.point, at.surface.point);
-                               put(first, here, surface.error, at.surface.error);
-                               put(first, here, surface.normal, at.surface.normal);
-                               put(first, here, normal, at.normal);
-                               put(first, here, material, at.material);
-                               if constexpr (S::traits.refraction) {
-                                   put(first, here, Index(body), at.body);
-                               }
-                               if constexpr (S::traits.functions) {
-                                   put(first, here, object_point, at.point.p);
-                               }
-                               first = false;
-                           });
+        for_each_primitive(
+            scene_, hit, pack.active,
+            [&](const auto& primitive, const Mask& here, [[maybe_unused]] const auto inverted,
+                [[maybe_unused]] std::uint32_t body) {
+                Vec3<L> object_point;
+                Surface<L> surface = surface_of(scene_, primitive, ray, hit.shape, here, object_point);
+                if constexpr (uses_csg(S::traits)) {
+                    surface = inverted ? turned_over(surface) : surface;
+                }
+                const Mask back = dot(surface.normal, ray.dir) > 0;
+                const Vec3<L> normal = choose(dot(surface.shading_normal, ray.dir) > 0,
+                                              -surface.shading_normal, surface.shading_normal);
+                const Sides& sides = primitive.tag.sides;
+                using Index = IndexOf<L>;
+                const Index material = S::traits.two_sided
+                                           ? choose(back, Index(sides.back), Index(sides.front))
+                                           : Index(sides.front);
+                // Value by value, since whole structures would be copied through memory.
+                put(first, here, surface.point, at.surface.point);
+                put(first, here, surface.error, at.surface.error);
+                put(first, here, surface.normal, at.surface.normal);
+                put(first, here, normal, at.normal);
+                put(first, here, material, at.material);
+                if constexpr (S::traits.refraction) {
+                    put(first, here, Index(body), at.body);
+                }
+                if constexpr (S::traits.functions) {
+                    put(first, here, object_point, at.point.p);
+                }
+                if constexpr (S::traits.uv) {
+                    if (scene_.reads_uv) {
+                        put(first, here, uv_of(scene_, primitive, ray, hit.shape, here, object_point),
+                            at.point.uv);
+                    }
+                }
+                first = false;
+            });
         if constexpr (S::traits.functions) {
             at.point.world = at.surface.point;
             at.point.n = at.surface.normal;
@@ -524,8 +541,20 @@ private:
         if constexpr (S::traits.directional_lights) {
             for_each_light(scene_.directional_lights, add_light);
         }
+        std::size_t points = scene_.point_lights.size();
+        if constexpr (S::traits.spot_lights) {
+            for_each_light(scene_.spot_lights,
+                           [&](const auto& light, std::size_t index) { add_light(light, points + index); });
+            points += scene_.spot_lights.size();
+        }
+        if constexpr (S::traits.rectangle_lights) {
+            for (std::size_t i = 0; i < grid_points_.size(); ++i) {
+                add_light(grid_points_[i], points + i);
+            }
+        }
     }
 
+    /// `index`: in the list of occluders for its kind of light.
     template <class Light>
     void add(const Light& light, std::size_t index, Packs& packs, const std::array<Ray<L>, N>& rays) const {
         std::array<LightAt<L>, N> seen;
@@ -540,12 +569,15 @@ private:
             seen[i] = light_at(light, packs[i].at.surface.point);
             cosine[i] = dot(seen[i].to_light, packs[i].at.normal);
             lit[i] = lit[i] & (cosine[i] > 0);
+            if constexpr (requires { light.cos_outer; }) {
+                lit[i] = lit[i] & (cone_cosine(light, seen[i].to_light) > L(light.cos_outer));
+            }
             any_lit = any_lit || any(lit[i]);
         }
         if (!any_lit) {
             return;
         }
-        take_shadowed(light, index, packs, lit);
+        take_shadowed(source(light), index, packs, lit);
         for (std::size_t i = 0; i < packs.count; ++i) {
             if (any(lit[i])) {
                 add(light, packs[i], rays[i].dir, seen[i], cosine[i], lit[i]);
@@ -571,6 +603,9 @@ private:
             if (is_attenuated(light)) {
                 reflected = reflected / attenuation(light, seen.distance);
             }
+        }
+        if constexpr (requires { light.cos_outer; }) {
+            reflected = reflected * cone_share(light, cone_cosine(light, seen.to_light));
         }
         if constexpr (S::traits.transmission && S::traits.shadows) {
             reflected = reflected * pack.filter;
@@ -674,6 +709,9 @@ private:
     const Occluders<DirectionalLight<R>>& occluders(const DirectionalLight<R>&, std::size_t index) const {
         return directional_occluders_[index];
     }
+    /// A light as its shadows know it.
+    static const PointLight<R>& source(const PointLight<R>& light) { return light; }
+    static const DirectionalLight<R>& source(const DirectionalLight<R>& light) { return light; }
     static Apex apex_of(const PointLight<R>&) { return Apex::end; }
     static Apex apex_of(const DirectionalLight<R>&) { return Apex::none; }
     static Ray<L> feeler(const PointLight<R>& light, const Surface<L>& surface) {
@@ -695,8 +733,10 @@ private:
     Media<R> media_;
     std::array<std::vector<Branch>, N> waiting_; ///< of each pack
     Vec3<R> start_{std::numeric_limits<R>::quiet_NaN(), 0, 0};
-    std::vector<Body> around_start_;                        ///< that it is in, from the outermost one
-    std::vector<Occluders<PointLight<R>>> point_occluders_; ///< by the light's index, without a hierarchy
+    std::vector<Body> around_start_;         ///< that it is in, from the outermost one
+    std::vector<PointLight<R>> grid_points_; ///< of all rectangle lights
+    /// Without a hierarchy: of point lights, spot lights and grid points.
+    std::vector<Occluders<PointLight<R>>> point_occluders_;
     std::vector<Occluders<DirectionalLight<R>>> directional_occluders_;
 };
 

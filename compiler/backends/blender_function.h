@@ -9,11 +9,12 @@
 
 namespace scc::compiler {
 
-/// Which of "p", "world" and "n" the function reads.
+/// Which of "p", "world", "n" and "uv" the function reads.
 std::vector<std::string_view> points_read(const ir::Function& function);
 
 /// A Python function that makes the nodes: `def identifier(g, p, n) -> "Color":`, where g is a Graph of
-/// blender/nodes.py.
-void write_function(Writer& out, const ir::Function& function, const std::string& identifier);
+/// blender/nodes.py. `image_keys`: what the function's images are called in IMAGES.
+void write_function(Writer& out, const ir::Function& function, const std::string& identifier,
+                    std::vector<std::string> image_keys);
 
 } // namespace scc::compiler

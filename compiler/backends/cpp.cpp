@@ -39,6 +39,10 @@ std::string literal(bool v) {
     return v ? "true" : "false";
 }
 template <class R>
+std::string literal(const runtime::Vec2<R>& v) {
+    return fmt::format("{{{}, {}}}", literal(v.x), literal(v.y));
+}
+template <class R>
 std::string literal(const Vec3<R>& v) {
     return fmt::format("{{{}, {}, {}}}", literal(v.x), literal(v.y), literal(v.z));
 }
@@ -80,6 +84,16 @@ template <class R>
 std::string literal(const runtime::PointLight<R>& l) {
     return fmt::format("{{{}, {}, {}, {}, {}, {}}}", literal(l.position), literal(l.diffuse),
                        literal(l.specular), literal(l.kc), literal(l.kl), literal(l.kq));
+}
+template <class R>
+std::string literal(const runtime::SpotLight<R>& l) {
+    return fmt::format("{{{}, {}, {}, {}, {}}}", literal(static_cast<const runtime::PointLight<R>&>(l)),
+                       literal(l.axis), literal(l.cos_inner), literal(l.cos_outer), literal(l.exponent));
+}
+template <class R>
+std::string literal(const runtime::RectangleLight<R>& l) {
+    return fmt::format("{{{}, {}, {}, {}, {}}}", literal(static_cast<const runtime::PointLight<R>&>(l)),
+                       literal(l.edge_u), literal(l.edge_v), l.nu, l.nv);
 }
 template <class R>
 std::string literal(const runtime::DirectionalLight<R>& l) {
@@ -194,7 +208,7 @@ private:
     void colored_table(const std::string& row_type, const std::string& name, const std::vector<T>& rows);
     void traits();
     void primitives();
-    std::string node_spelling(const ir::Node& node, std::string_view point);
+    std::string node_spelling(const ir::Function& function, const ir::Node& node, std::string_view point);
     /// One function of the scene type for those in `which`; its parameter is the point's name in the bodies.
     void functions(const std::vector<std::size_t>& which, const char* result_type, const char* name,
                    const char* parameter, std::string_view point);
@@ -202,6 +216,7 @@ private:
     void field_functions();
     std::vector<bool> are_fields() const;
     void meshes();
+    void images();
     void scene_type();
     void program();
 
@@ -215,6 +230,7 @@ private:
     host::ValuesWriter values_;
     std::vector<std::string> reads_; // statements of `load`, in the order of the values
     std::vector<R> function_constants_;
+    std::vector<const ir::Image*> images_ = ir::images_of(scene_);
     std::vector<std::string> colored_; // tables of which each band has its own
     Writer out_;
 };
@@ -322,7 +338,8 @@ std::vector<bool> Emitter<R>::are_fields() const {
 }
 
 template <class R>
-std::string Emitter<R>::node_spelling(const ir::Node& node, std::string_view point) {
+std::string Emitter<R>::node_spelling(const ir::Function& function, const ir::Node& node,
+                                      std::string_view point) {
     switch (node.kind) {
     case ir::Node::Kind::constant:
         if (in_code_) {
@@ -332,6 +349,12 @@ std::string Emitter<R>::node_spelling(const ir::Node& node, std::string_view poi
         return fmt::format("L(function_constants[{}])", function_constants_.size() - 1);
     case ir::Node::Kind::input:
         return fmt::format("{}{}", point, ir::name(node.input));
+    case ir::Node::Kind::image: {
+        const ir::Image* image = function.images[node.image].get();
+        return fmt::format("image_channel(images[{}], {}, v{}, v{})",
+                           std::find(images_.begin(), images_.end(), image) - images_.begin(), node.channel,
+                           node.operands[0], node.operands[1]);
+    }
     case ir::Node::Kind::apply:
         break;
     }
@@ -378,7 +401,7 @@ void Emitter<R>::functions(const std::vector<std::size_t>& which, const char* re
         out_.line("case {}: {{{}", i, in_code_ ? " // " + comment_text(function.name) : "");
         out_.indent();
         for (std::size_t k = 0; k < function.nodes.size(); ++k) {
-            out_.line("const L v{} = {};", k, node_spelling(function.nodes[k], point));
+            out_.line("const L v{} = {};", k, node_spelling(function, function.nodes[k], point));
         }
         std::string returned;
         for (const std::uint32_t result : function.results) {
@@ -413,6 +436,7 @@ void Emitter<R>::scene_type() {
         read_member("function_constants");
     }
     meshes();
+    images();
     if (scene_.traits.accelerator || any_scene_) {
         out_.raw_line("Accelerator accelerator;");
     }
@@ -431,6 +455,12 @@ void Emitter<R>::colors() {
     if (scene_.traits.directional_lights || any_scene_) {
         colored_table("DirectionalLight<R>", "directional_lights",
                       lights_of<runtime::DirectionalLight, R>(scene_));
+    }
+    if (scene_.traits.spot_lights || any_scene_) {
+        colored_table("SpotLight<R>", "spot_lights", lights_of<runtime::SpotLight, R>(scene_));
+    }
+    if (scene_.traits.rectangle_lights || any_scene_) {
+        colored_table("RectangleLight<R>", "rectangle_lights", lights_of<runtime::RectangleLight, R>(scene_));
     }
     if (!has_bands()) {
         member("Rgb<R>", "ambient", convert(scene_.ambient, R{}));
@@ -482,10 +512,28 @@ void Emitter<R>::meshes() {
     for (const ir::Mesh& mesh : scene_.meshes) {
         built.push_back(build_mesh(mesh, {.threads = host::core_count()}));
         data.push_back(built.back().data);
+        if (!scene_.traits.uv) {
+            data.back().uvs = nullptr;
+            data.back().uv_count = 0;
+        }
     }
     out_.raw_line("static inline std::vector<MeshData> meshes;");
     values_.add(data);
     read_member("meshes");
+}
+
+template <class R>
+void Emitter<R>::images() {
+    if (images_.empty()) {
+        return;
+    }
+    std::vector<runtime::ImageData> data;
+    for (const ir::Image* image : images_) {
+        data.push_back(image->data);
+    }
+    out_.raw_line("static inline std::vector<ImageData> images;");
+    values_.add(data);
+    read_member("images");
 }
 
 template <class R>

@@ -34,6 +34,8 @@ struct Bands {
     std::vector<runtime::Phong<R>> materials;
     std::vector<runtime::PointLight<R>> point_lights;
     std::vector<runtime::DirectionalLight<R>> directional_lights;
+    std::vector<runtime::SpotLight<R>> spot_lights;
+    std::vector<runtime::RectangleLight<R>> rectangle_lights;
 
     void give(std::size_t group, runtime::DynamicScene<R>& scene) const {
         const auto give_rows = [&]<class T>(const std::vector<T>& all, std::vector<T>& rows) {
@@ -43,6 +45,8 @@ struct Bands {
         give_rows(materials, scene.materials);
         give_rows(point_lights, scene.point_lights);
         give_rows(directional_lights, scene.directional_lights);
+        give_rows(spot_lights, scene.spot_lights);
+        give_rows(rectangle_lights, scene.rectangle_lights);
         scene.ambient = groups[group].ambient;
         scene.background = groups[group].background;
     }
@@ -70,14 +74,18 @@ std::shared_ptr<OwnedScene<R>> build(const ir::Scene& scene, std::shared_ptr<con
     out.materials = materials_of<R>(scene);
     out.point_lights = lights_of<runtime::PointLight, R>(scene);
     out.directional_lights = lights_of<runtime::DirectionalLight, R>(scene);
+    out.spot_lights = lights_of<runtime::SpotLight, R>(scene);
+    out.rectangle_lights = lights_of<runtime::RectangleLight, R>(scene);
     if (!scene.bands.empty()) {
-        owned->bands = {bands_of<R>(scene), std::move(out.materials), std::move(out.point_lights),
-                        std::move(out.directional_lights)};
+        owned->bands = {bands_of<R>(scene),          std::move(out.materials),
+                        std::move(out.point_lights), std::move(out.directional_lights),
+                        std::move(out.spot_lights),  std::move(out.rectangle_lights)};
         owned->bands.give(0, out);
     }
     for (const ir::Function& function : scene.functions) {
         out.functions.push_back(program_of<R>(function));
     }
+    out.reads_uv = scene.traits.uv;
     out.camera = convert(scene.camera, R{});
     out.ambient = convert(scene.ambient, R{});
     out.background = convert(scene.background, R{});

@@ -30,6 +30,14 @@ bool convert(bool v, R) {
     return v;
 }
 template <class R, std::size_t N>
+std::array<runtime::Vec2<R>, N> convert(const std::array<runtime::Vec2<double>, N>& list, R) {
+    std::array<runtime::Vec2<R>, N> result;
+    for (std::size_t i = 0; i < N; ++i) {
+        result[i] = {static_cast<R>(list[i].x), static_cast<R>(list[i].y)};
+    }
+    return result;
+}
+template <class R, std::size_t N>
 std::array<runtime::Vec3<R>, N> convert(const std::array<runtime::Vec3<double>, N>& list, R real) {
     std::array<runtime::Vec3<R>, N> result;
     for (std::size_t i = 0; i < N; ++i) {
@@ -52,6 +60,16 @@ template <class R>
 runtime::PointLight<R> convert(const runtime::PointLight<double>& l, R real) {
     return {convert(l.position, real), convert(l.diffuse, real), convert(l.specular, real),
             convert(l.kc, real),       convert(l.kl, real),      convert(l.kq, real)};
+}
+template <class R>
+runtime::SpotLight<R> convert(const runtime::SpotLight<double>& l, R real) {
+    return {convert(static_cast<const runtime::PointLight<double>&>(l), real), convert(l.axis, real),
+            convert(l.cos_inner, real), convert(l.cos_outer, real), convert(l.exponent, real)};
+}
+template <class R>
+runtime::RectangleLight<R> convert(const runtime::RectangleLight<double>& l, R real) {
+    return {convert(static_cast<const runtime::PointLight<double>&>(l), real), convert(l.edge_u, real),
+            convert(l.edge_v, real), l.nu, l.nv};
 }
 template <class R>
 runtime::DirectionalLight<R> convert(const runtime::DirectionalLight<double>& l, R real) {

@@ -129,7 +129,9 @@ validation::RenderResult run_renderer(const compiler::Exporter& exporter, const 
                                       const Subject& subject, double brightest, double timeout_seconds,
                                       compiler::Ledger& ledger) {
     const std::filesystem::path file = subject.folder.path() / ("scene" + std::string(exporter.extension));
-    host::replace_file(file.string(), exporter.emit(scene, ledger));
+    compiler::ExportFiles beside{.stem = file.stem().string()};
+    host::replace_file(file.string(), exporter.emit(scene, ledger, beside));
+    write_beside(subject.folder.path(), beside);
     validation::RenderJob job;
     job.scene = file;
     job.folder = subject.folder.path();

@@ -60,6 +60,33 @@ std::vector<double> iors_of(const Scene& scene, const Object& object) {
     return iors;
 }
 
+std::array<std::int32_t, 7> functions_of(const runtime::Phong<double>& p) {
+    return {p.ambient.function, p.diffuse.function,  p.specular.function, p.emission.function,
+            p.reflect.function, p.transmit.function, p.shininess.function};
+}
+
+bool material_reads(const Scene& scene, std::uint32_t material, Input first, Input last) {
+    for (const std::int32_t index : functions_of(scene.materials[material].phong)) {
+        if (index != runtime::no_function &&
+            scene.functions[static_cast<std::size_t>(index)].reads(first, last)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+std::vector<const Image*> images_of(const Scene& scene) {
+    std::vector<const Image*> images;
+    for (const Function& function : scene.functions) {
+        for (const std::shared_ptr<const Image>& image : function.images) {
+            if (std::find(images.begin(), images.end(), image.get()) == images.end()) {
+                images.push_back(image.get());
+            }
+        }
+    }
+    return images;
+}
+
 std::string_view csg_word(runtime::CsgOp op) {
     switch (op) {
     case runtime::CsgOp::member:

@@ -30,10 +30,13 @@ std::string text(const Vec3<double>& v) {
 std::string text(const Rgb<double>& c) {
     return fmt::format("rgb({}, {}, {})", c.r, c.g, c.b);
 }
-template <std::size_t N>
-std::string text(const std::array<Vec3<double>, N>& list) {
+std::string text(const runtime::Vec2<double>& v) {
+    return fmt::format("({}, {})", v.x, v.y);
+}
+template <class T, std::size_t N>
+std::string text(const std::array<T, N>& list) {
     std::string result;
-    for (const Vec3<double>& v : list) {
+    for (const T& v : list) {
         result += (result.empty() ? "[" : ", ") + text(v);
     }
     return result + "]";
@@ -65,6 +68,10 @@ void print_function(Writer& out, const Function& function, std::size_t index) {
             for (int k = 0; k < row(node.op).arity; ++k) {
                 what += fmt::format(" %{}", node.operands[static_cast<std::size_t>(k)]);
             }
+            break;
+        case Node::Kind::image:
+            what = fmt::format("image {}.{} %{} %{}", quote(Language::cpp, function.images[node.image]->name),
+                               "rgb"[node.channel], node.operands[0], node.operands[1]);
             break;
         }
         out.line("%{} = {}", i, what);
@@ -162,9 +169,20 @@ void print_object(Writer& out, const std::string& heading, const Object& object,
     out.line("}}");
 }
 
-std::string light_text(const runtime::PointLight<double>& l) {
-    return fmt::format("point position = {}, diffuse = {}, specular = {}, attenuation = ({}, {}, {})",
+std::string point_text(const runtime::PointLight<double>& l) {
+    return fmt::format("position = {}, diffuse = {}, specular = {}, attenuation = ({}, {}, {})",
                        text(l.position), text(l.diffuse), text(l.specular), l.kc, l.kl, l.kq);
+}
+std::string light_text(const runtime::PointLight<double>& l) {
+    return "point " + point_text(l);
+}
+std::string light_text(const runtime::SpotLight<double>& l) {
+    return fmt::format("spot {}, axis = {}, cos_inner = {}, cos_outer = {}, exponent = {}", point_text(l),
+                       text(l.axis), l.cos_inner, l.cos_outer, l.exponent);
+}
+std::string light_text(const runtime::RectangleLight<double>& l) {
+    return fmt::format("rectangle {}, edge_u = {}, edge_v = {}, samples = ({}, {})", point_text(l),
+                       text(l.edge_u), text(l.edge_v), l.nu, l.nv);
 }
 std::string light_text(const runtime::DirectionalLight<double>& l) {
     return fmt::format("directional to_light = {}, diffuse = {}, specular = {}", text(l.to_light),

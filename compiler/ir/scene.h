@@ -93,7 +93,9 @@ struct LightColors {
 };
 
 struct Light {
-    std::variant<runtime::PointLight<double>, runtime::DirectionalLight<double>> light;
+    std::variant<runtime::PointLight<double>, runtime::DirectionalLight<double>, runtime::SpotLight<double>,
+                 runtime::RectangleLight<double>>
+        light;
     std::string name; ///< unique
     lang::Span span;
     std::vector<LightColors> bands{}; ///< instead of the light's own, for each of Scene::bands

@@ -25,10 +25,11 @@ void require(bool condition, std::string_view what, std::string_view where) {
 void verify_function(const Function& function) {
     for (std::size_t i = 0; i < function.nodes.size(); ++i) {
         const Node& node = function.nodes[i];
-        const int arity = node.kind == Node::Kind::apply ? row(node.op).arity : 0;
-        for (int k = 0; k < arity; ++k) {
-            require(node.operands[static_cast<std::size_t>(k)] < i, "an operand comes after its use",
-                    function.name);
+        for (std::size_t k = 0; k < arity(node); ++k) {
+            require(node.operands[k] < i, "an operand comes after its use", function.name);
+        }
+        if (node.kind == Node::Kind::image) {
+            require(node.image < function.images.size() && node.channel < 3, "no such image", function.name);
         }
     }
     require(function.results.size() == 1 || function.results.size() == 3,
@@ -123,6 +124,9 @@ void verify_mesh(const Mesh& mesh) {
     require(mesh.indices.size() % 3 == 0 && !mesh.indices.empty(), "a mesh has whole triangles", mesh.name);
     require(mesh.normal_indices.empty() || mesh.normal_indices.size() == mesh.indices.size(),
             "one normal per corner", mesh.name);
+    require(mesh.uv_indices.empty() || mesh.uv_indices.size() == mesh.indices.size(), "one uv per corner",
+            mesh.name);
+    require(all_below(mesh.uv_indices, mesh.uvs.size() / 2), "no such uv", mesh.name);
     require(all_below(mesh.indices, mesh.positions.size() / 3), "no such vertex", mesh.name);
     require(all_below(mesh.normal_indices, mesh.normals.size() / 3), "no such normal", mesh.name);
 }

@@ -1,6 +1,8 @@
 #include "compiler/ir/objects.h"
 #include "compiler/ir/traits.h"
 #include "compiler/passes/passes.h"
+#include "runtime/illumination.h"
+#include "runtime/primitive.h"
 
 #include <algorithm>
 #include <bit>
@@ -46,23 +48,39 @@ void need(SceneTraits& traits, const ir::ObjectColumn& column) {
     }
 }
 
-void need(SceneTraits& traits, const runtime::Phong<double>& p, int depth) {
+void need(SceneTraits& traits, const runtime::Phong<double>& p, const ir::Scene& scene) {
     traits.specular |= is_present(p.specular);
     traits.emission |= is_present(p.emission);
-    traits.reflection |= depth > 0 && is_present(p.reflect);
+    traits.reflection |= scene.settings.depth > 0 && is_present(p.reflect);
     traits.transmission |= lets_through(p);
     traits.refraction |= refracts(p);
-    for (const std::int32_t function :
-         {p.ambient.function, p.diffuse.function, p.specular.function, p.emission.function,
-          p.reflect.function, p.transmit.function, p.shininess.function}) {
-        traits.functions |= function != runtime::no_function;
+    for (const std::int32_t function : ir::functions_of(p)) {
+        if (function != runtime::no_function) {
+            traits.functions = true;
+            traits.uv |=
+                scene.functions[static_cast<std::size_t>(function)].reads(ir::Input::uv_x, ir::Input::uv_y);
+        }
     }
+}
+
+void need_of_points(SceneTraits& traits, const runtime::PointLight<double>& light) {
+    traits.attenuation |= runtime::is_attenuated(light);
+    traits.separate_specular |= !(light.diffuse == light.specular);
 }
 
 void need(SceneTraits& traits, const runtime::PointLight<double>& light) {
     traits.point_lights = true;
-    traits.attenuation |= light.kc != 1 || light.kl != 0 || light.kq != 0;
-    traits.separate_specular |= !(light.diffuse == light.specular);
+    need_of_points(traits, light);
+}
+
+void need(SceneTraits& traits, const runtime::SpotLight<double>& light) {
+    traits.spot_lights = true;
+    need_of_points(traits, light);
+}
+
+void need(SceneTraits& traits, const runtime::RectangleLight<double>& light) {
+    traits.rectangle_lights = true;
+    need_of_points(traits, light);
 }
 
 void need(SceneTraits& traits, const runtime::DirectionalLight<double>& light) {
@@ -78,6 +96,11 @@ void add(SceneTraits& traits, const SceneTraits& more) {
     for (const ir::TraitFlag& flag : ir::trait_flags) {
         traits.*flag.member |= more.*flag.member;
     }
+}
+
+template <class Shape>
+std::size_t count_bounded(const Shape&) {
+    return runtime::is_bounded<Shape> ? 1 : 0;
 }
 
 } // namespace
@@ -99,9 +122,9 @@ std::vector<Need> needs_of(const ir::Scene& scene) {
     }
     for (const ir::Material& material : scene.materials) {
         SceneTraits& traits = needs.emplace_back(SceneTraits{}, material.span).traits;
-        need(traits, material.phong, scene.settings.depth);
+        need(traits, material.phong, scene);
         for (const runtime::Phong<double>& phong : material.bands) {
-            need(traits, phong, scene.settings.depth);
+            need(traits, phong, scene);
         }
     }
     for (const ir::Light& light : scene.lights) {
@@ -127,13 +150,13 @@ void derive_traits(ir::Scene& scene) {
     ir::for_each_piece(
         scene,
         [&](const ir::Object& object) {
-            bounded += std::holds_alternative<runtime::Plane<double>>(object.shape) ? 0 : 1;
+            bounded += std::visit([](const auto& shape) { return count_bounded(shape); }, object.shape);
         },
         [&](const ir::ObjectArray& array) {
             for (const ir::ObjectColumn& column : array.columns) {
-                const bool planes =
-                    std::holds_alternative<std::vector<runtime::Plane<double>>>(column.shapes);
-                bounded += planes ? 0 : array.rounds;
+                bounded +=
+                    array.rounds *
+                    std::visit([](const auto& shapes) { return count_bounded(shapes[0]); }, column.shapes);
             }
         });
     traits.accelerator = bounded > runtime::accelerator_threshold;

@@ -24,7 +24,10 @@ INSTANTIATE_TEST_SUITE_P(
     All, Examples,
     testing::Values(Example{"lecture", "pov,blender,native"}, Example{"mesh", "pov,blender,native"},
                     Example{"transforms", "pov,blender,native"}, Example{"lights", "pov,blender,native"},
-                    Example{"mirrors", "pov,blender,native"}, Example{"csg", "pov,native"},
+                    Example{"mirrors", "pov,blender,native"}, Example{"stage", "pov,blender,native"},
+                    Example{"rings", "pov,native"}, Example{"quadrics", "pov,native"},
+                    Example{"landscape", "pov,blender,native"}, Example{"textures", "pov,blender,native"},
+                    Example{"csg", "pov,native"},
                     Example{"implicit", "pov,native"}, Example{"lattice", "pov,native"}),
     [](const auto& row) { return std::string(row.param.name); });
 
