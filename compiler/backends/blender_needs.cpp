@@ -253,7 +253,9 @@ private:
         if (is_present(phong.emission)) {
             want("emission");
         }
-        for (const std::int32_t function : ir::functions_of(phong)) {
+        Phong<double> drawn = phong;
+        drawn.transmit = {}; // is not written
+        for (const std::int32_t function : ir::functions_of(drawn)) {
             if (function != runtime::no_function) {
                 needs_.functions[static_cast<std::size_t>(function)] = true;
                 want("function");

@@ -73,6 +73,7 @@ private:
              comment_text(name));
         line(
             "//   f r g b Kd Ks Shine: diffuse Kd (r, g, b), white highlight and mirror Ks, exponent Shine;");
+        line("//   f ... T ior: what is seen through the surface T, index of refraction ior;");
         line("//   l without a colour: white, 1 / sqrt(number of lights);");
         line("//   ambient light: 0.1 of diffuse; angle: from the picture's lower to its upper edge.");
         out_ += '\n';
@@ -203,9 +204,10 @@ private:
             line("specular = {}, shininess = {}, reflect = {}", grey(fill.ks), fill.shine, grey(fill.ks));
         }
         if (fill.t > 0) {
-            warn(fill.place,
-                 fmt::format("T = {}, ior = {}: transmission is not supported yet; this is opaque", fill.t,
-                             fill.ior));
+            if (fill.ior <= 0) {
+                warn(fill.place, fmt::format("ior = {}: no index of refraction; it is taken as 1", fill.ior));
+            }
+            line("transmit = {}, ior = {}", grey(fill.t), fill.ior > 0 ? fill.ior : 1.0);
         } else if (odd_ior) {
             warn(fill.place, fmt::format("ior = {}: without transmission it changes nothing", fill.ior));
         }

@@ -1,5 +1,7 @@
+#include "compiler/backends/function_program.h"
 #include "compiler/coincident_faces.h"
 #include "compiler/lower.h"
+#include "compiler/passes/passes.h"
 #include "compiler/test/support.h"
 
 #include <gtest/gtest.h>
@@ -49,6 +51,67 @@ TEST(Lower, AmbientDefaultsToTheDiffuseValueEvenIfItIsAFunction) {
     const auto& p = c.scene.materials[0].phong;
     EXPECT_GE(p.diffuse.function, 0);
     EXPECT_EQ(p.ambient.function, p.diffuse.function);
+}
+
+TEST(Lower, OpacityIsWorkedIntoTheOtherFields) {
+    const Compiled c = compile_shapes(
+        "sphere { material = phong { diffuse = rgb(0.5, 0.25, 1), specular = rgb(0.5, 0.5, 0.5), emission = "
+        "rgb(0, 1, 0), reflect = rgb(0.5, 0.5, 0.5), transmit = rgb(0.5, 0, 0.25), opacity = 0.75, ior = 1.5 "
+        "} }");
+    ASSERT_TRUE(c.fine) << c.messages;
+    const auto& p = c.scene.materials[0].phong;
+    EXPECT_EQ(p.diffuse.value, (runtime::Rgb<double>{0.375, 0.1875, 0.75}));
+    EXPECT_EQ(p.ambient.value, p.diffuse.value);
+    EXPECT_EQ(p.specular.value, (runtime::Rgb<double>{0.375, 0.375, 0.375}));
+    EXPECT_EQ(p.emission.value, (runtime::Rgb<double>{0, 0.75, 0}));
+    EXPECT_EQ(p.reflect.value, (runtime::Rgb<double>{0.5, 0.5, 0.5}));
+    EXPECT_EQ(p.transmit.value, (runtime::Rgb<double>{0.75, 0.25, 0.5}));
+    EXPECT_EQ(p.ior, 1.5);
+    EXPECT_FALSE(p.fresnel);
+}
+
+/// The channels of a field at an object point.
+runtime::Rgb<double> at(const Compiled& c, const runtime::Varying<runtime::Rgb<double>>& field,
+                        const runtime::Vec3<double>& p) {
+    if (field.function == runtime::no_function) {
+        return field.value;
+    }
+    const auto program = program_of<double>(c.scene.functions[static_cast<std::size_t>(field.function)]);
+    const double* v = runtime::run(program, runtime::SurfacePoint<double>{p, {}, {}});
+    return {v[program.results[0]], v[program.results[1]], v[program.results[2]]};
+}
+
+TEST(Lower, OpacityMayBeAFunctionBesideOthers) {
+    const Compiled c = compile_shapes("sphere { material = phong { diffuse = fn(s: surface) = rgb(s.p.x, "
+                                      "0.5, 1), emission = rgb(0.5, 0, 0), "
+                                      "transmit = rgb(0.25, 0, 0), opacity = fn(s: surface) = s.p.y } }");
+    ASSERT_TRUE(c.fine) << c.messages;
+    const auto& p = c.scene.materials[0].phong;
+    EXPECT_EQ(at(c, p.diffuse, {0.5, 0.25, 0}), (runtime::Rgb<double>{0.125, 0.125, 0.25}));
+    EXPECT_EQ(at(c, p.emission, {0.5, 0.25, 0}), (runtime::Rgb<double>{0.125, 0, 0}));
+    EXPECT_EQ(at(c, p.transmit, {0.5, 0.25, 0}), (runtime::Rgb<double>{1, 0.75, 0.75}));
+    EXPECT_EQ(at(c, p.transmit, {0.5, 9, 0}), (runtime::Rgb<double>{0.25, 0, 0})) << "no more than opaque";
+    EXPECT_EQ(at(c, p.transmit, {0.5, -9, 0}), (runtime::Rgb<double>{1.25, 1, 1}));
+    EXPECT_EQ(p.specular.function, runtime::no_function) << "black stays black";
+}
+
+TEST(Lower, GlassIsADielectricWithoutAColorOfItsOwn) {
+    Compiled c = compile_shapes("sphere { material = glass { tint = rgb(1, 0.5, 0.25) } }");
+    ASSERT_TRUE(c.fine) << c.messages;
+    const auto& p = c.scene.materials[0].phong;
+    EXPECT_EQ(p.diffuse.value, (runtime::Rgb<double>{}));
+    EXPECT_EQ(p.ambient.value, (runtime::Rgb<double>{}));
+    EXPECT_EQ(p.reflect.value, (runtime::Rgb<double>{1, 1, 1}));
+    EXPECT_EQ(p.transmit.value, (runtime::Rgb<double>{1, 0.5, 0.25}));
+    EXPECT_EQ(p.ior, 1.5);
+    EXPECT_TRUE(p.fresnel);
+    run_passes(c.scene);
+    EXPECT_TRUE(c.scene.traits.transmission);
+    EXPECT_TRUE(c.scene.traits.refraction);
+    Compiled pane = compile_shapes("disc { material = phong { opacity = 0.5 } }");
+    run_passes(pane.scene);
+    EXPECT_TRUE(pane.scene.traits.transmission);
+    EXPECT_FALSE(pane.scene.traits.refraction);
 }
 
 TEST(Lower, FunctionThatDoesNotDependOnThePointBecomesAConstant) {

@@ -146,12 +146,12 @@ group {
 TEST(Nff, SaysWhatHasNoCounterpart) {
     const Imported result =
         imported("v\nfrom 0 -5 2\nat 0 0 0\nup 0 0 1\nangle 40\nhither 1.5\nresolution 64 48\n"
-                 "f 1 1 1 0.1 0.2 20 0.7 1.5\ns 0 0 0 1\nf 1 1 1 1 0 1 0 1.3\ns 0 0 0 2\n"
+                 "f 1 1 1 0.1 0.2 20 0.7 0\ns 0 0 0 1\nf 1 1 1 1 0 1 0 1.3\ns 0 0 0 2\n"
                  "p 3\n0 0 0\n1 1 1\n2 2 2\n"
                  "pp 3\n0 0 0 0 0 1\n1 0 0 0 0 0\n0 1 0 0 0 1\n");
     const std::pair<unsigned, const char*> expected[] = {
         {6, "hither = 1.5: "},
-        {8, "T = 0.7, ior = 1.5: "},
+        {8, "ior = 0: "},
         {10, "ior = 1.3: "},
         {12, "a polygon of 3 corners without area is left out"},
         {16, "a normal of this patch is 0"}};

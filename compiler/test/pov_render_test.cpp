@@ -341,5 +341,51 @@ cone { radius_from = 1, material = phong { diffuse = windy }, transform = scale(
                         4);
 }
 
+TEST_F(PovRender, Transparency) {
+    expect_same_picture(
+        room + camera + lamp +
+        "sphere { center = (-1.5, 1, 0), material = phong { diffuse = rgb(0.6, 0.2, 0.1), specular = "
+        "rgb(0.4, "
+        "0.2, 0.1), opacity = 0.4, transmit = rgb(0, 0.2, 0.1), reflect = rgb(0.1, 0.1, 0.2) } }\n"
+        "box { min = (0.2, 0.01, -1), max = (0.4, 2, 1), material = phong { diffuse = rgb(0, 0, 0), specular "
+        "= "
+        "rgb(0.6, 0, 0.2), transmit = rgb(0.9, 0.5, 0) } }\n"
+        "disc { center = (2, 1, 0), normal = (1, 0, 2), material = phong { diffuse = fn(s: surface) = "
+        "rgb(0.5, "
+        "0.4 * s.p.y, 0.1), specular = rgb(0.3, 0.3, 0.3), opacity = fn(s: surface) = 0.5 + 0.4 * sin(5 * "
+        "s.p.x) } }\n");
+}
+
+TEST_F(PovRender, Refraction) {
+    expect_same_picture(
+        room + camera + lamp +
+            "let wet = phong { diffuse = rgb(0.05, 0, 0), transmit = rgb(0.8, 0.9, 0.95), ior = 1.33, "
+            "specular = "
+            "rgb(0.5, 0.3, 0.1), reflect = rgb(0.1, 0.1, 0.1) }\n"
+            "let bubble = phong { diffuse = rgb(0, 0, 0), transmit = rgb(1, 1, 1), ior = 1 }\n"
+            "sphere { center = (-1.5, 1.1, 0), material = glass { tint = rgb(1, 0.9, 0.8), specular = "
+            "rgb(0.4, 0, "
+            "0.3) } }\n"
+            "sphere { center = (-1.4, 1.3, 0.1), radius = 0.4, material = bubble }\n"
+            "box { min = (0.2, 0.1, -1), max = (1.8, 1.6, 0.6), material = glass { } }\n"
+            "box { min = (0.3, 0.2, -0.9), max = (1.7, 1.2, 0.5), material = wet }\n"
+            "difference {\n  material = glass { ior = 1.4, specular = rgb(0.2, 0.2, 0.2) }\n"
+            "  sphere { center = (2.6, 0.9, 1.5), radius = 0.8 }\n  sphere { center = (2.6, 1.5, 1.8), "
+            "radius = 0.6 "
+            "}\n}\n"
+            "render { method = ray { depth = 7 } }\n",
+        4);
+}
+
+TEST_F(PovRender, CameraInGlassAndInWater) {
+    expect_same_picture(
+        room + camera + lamp +
+            "sphere { center = (0, 2, 2), radius = 9, material = phong { diffuse = rgb(0, 0, 0), transmit = "
+            "rgb(0.9, 0.9, 1), ior = 1.33 } }\n"
+            "box { min = (2, 3, 6), max = (4, 5, 8), material = glass { } }\n"
+            "sphere { center = (0, 1, 0), material = glass { } }\n",
+        4);
+}
+
 } // namespace
 } // namespace scc::compiler

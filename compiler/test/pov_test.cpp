@@ -127,6 +127,21 @@ TEST(Pov, ColoredHighlightsAreFilteredFromBelow) {
     EXPECT_TRUE(has(text, "pigment { rgb 0.5 transmit 0.5 } finish { diffuse 2.0 }"));
 }
 
+TEST(Pov, WhatIsBehindIsFilteredByTheBottomLayer) {
+    const std::string half =
+        sphere_of("diffuse = rgb(0.5, 0.5, 1), ambient = rgb(0, 0, 0), opacity = 0.5").text;
+    EXPECT_TRUE(has(half, "texture { pigment { rgb 1.0 filter 1 } }")) << half;
+    EXPECT_TRUE(has(half, "pigment { rgb <0.25, 0.25, 0.5> transmit 0.5 } finish { diffuse 2.0 }"));
+    EXPECT_FALSE(has(half, "interior"));
+    const std::string water = sphere_of("diffuse = rgb(0, 0, 0), transmit = rgb(1, 0.5, 0.25), ior = 1.33, "
+                                        "specular = rgb(0.5, 0.5, 0.5), shininess = 16")
+                                  .text;
+    EXPECT_TRUE(
+        has(water, "pigment { rgb <1.0, 0.5, 0.25> filter 1 } finish { specular 0.5 roughness 0.0625 }"))
+        << water;
+    EXPECT_TRUE(has(water, "interior { ior 1.33 }"));
+}
+
 TEST(Pov, AmbientOfADarkChannelGetsALayerOfItsOwn) {
     const std::string text = sphere_of("diffuse = rgb(0.5, 0.5, 0), ambient = rgb(0.25, 0.25, 0.25)").text;
     EXPECT_TRUE(has(text, "pigment { rgb 1.0 } finish { ambient rgb 0.5 }"));

@@ -367,9 +367,7 @@ TEST_F(CommandLine, ImportsAndRenders) {
     EXPECT_EQ(result.code, 0);
     EXPECT_EQ(result.out, "");
     EXPECT_EQ(result.err,
-              "a.nff:6:1: warning: hither = 1: ray casting also shows what is nearer than that\n"
-              "a.nff:9:1: warning: T = 0.5, ior = 1.5: transmission is not supported yet; this is "
-              "opaque\n");
+              "a.nff:6:1: warning: hither = 1: ray casting also shows what is nearer than that\n");
     EXPECT_EQ(scc({"import", "nff", "a.nff", "-o", "-"}).out, read("a.scn"));
     EXPECT_TRUE(scc({"check", "--strict", "a.scn"}).ok());
     const auto render = scc({"render", "a.scn", "-o", "a.png", "--stats", "-"});

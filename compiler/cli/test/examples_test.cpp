@@ -27,7 +27,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Example{"mirrors", "pov,blender,native"}, Example{"stage", "pov,blender,native"},
                     Example{"rings", "pov,native"}, Example{"quadrics", "pov,native"},
                     Example{"landscape", "pov,blender,native"}, Example{"textures", "pov,blender,native"},
-                    Example{"csg", "pov,native"},
+                    Example{"csg", "pov,native"}, Example{"glass", "pov,native"},
                     Example{"implicit", "pov,native"}, Example{"lattice", "pov,native"}),
     [](const auto& row) { return std::string(row.param.name); });
 

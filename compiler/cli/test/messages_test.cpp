@@ -64,6 +64,11 @@ const std::map<Diag, Case>& cases() {
          {"fn f(s: surface) -> color = rgb(s.uv.x, s.uv.y, 0)\n"
           "mesh { file = \"plain.obj\", material = phong { diffuse = f } }\n"}},
         {Diag::suspect_mesh, {"mesh { file = \"suspect.obj\" }\n"}},
+        {Diag::several_iors,
+         {"let a = phong { transmit = rgb(1, 1, 1), ior = 1.5 }\n"
+          "difference {\n  sphere { material = a }\n"
+          "  box { min = (0, 0, 0), material = phong { transmit = rgb(1, 1, 1), ior = 1.33 } }\n}\n"}},
+        {Diag::idle_ior, {"sphere { material = phong { ior = 1.5 } }\n"}},
         {Diag::bright_reflectance, {"sphere { material = phong { diffuse = rgb(1, 1.2, 0.5) } }\n"}},
         {Diag::depth_precision,
          {"sphere { }\nperspective_camera {\n  eye = (0, 0, 50)\n  near = 1e-6\n}\nplane { }\n"}},
