@@ -194,16 +194,16 @@ private:
             emit_solid(child, false);
         }
         if (whole) {
-            finish_object(ir::index_of_refraction(scene_, *std::get_if<runtime::Csg<double>>(&solid.shape)));
+            finish_object(ir::iors_of_solid(scene_, at));
         }
         objects_.dedent();
         objects_.line("}}");
     }
 
     /// What concerns an object as a whole.
-    void finish_object(double ior) {
-        if (ior != 1) {
-            objects_.line("interior {{ ior {} }}", number(ior));
+    void finish_object(const std::vector<double>& iors) {
+        if (!iors.empty() && iors[0] != 1) {
+            objects_.line("interior {{ ior {} }}", number(iors[0]));
         }
         if (!scene_.settings.shadows) {
             objects_.line("no_shadow");

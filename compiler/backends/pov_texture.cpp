@@ -222,13 +222,13 @@ std::vector<std::string> layers_of(const PaintedPhong& phong, const std::string&
         bodies.clear();
     }
     const bool colored_highlight = !has_equal_channels(phong.specular);
-    const double gain = std::exp2(static_cast<double>(bodies.size()));
+    const double gain_below = std::exp2(static_cast<double>(bodies.size()));
     std::vector<std::string> layers;
     if (transparent) {
-        layers = clear_layers(phong, roughness, gain, bodies.empty());
+        layers = clear_layers(phong, roughness, gain_below, bodies.empty());
     } else if (colored_highlight) {
         layers.push_back(layer_text(pigment(Paint{}, 1, Layer::opaque), highlight(1, roughness)));
-        layers.push_back(layer_text(pigment(phong.specular, gain, Layer::filter), ""));
+        layers.push_back(layer_text(pigment(phong.specular, gain_below, Layer::filter), ""));
     }
     for (std::size_t above = bodies.size(); above-- > 0;) {
         const bool bottom = above + 1 == bodies.size() && !colored_highlight && !transparent;
