@@ -35,9 +35,10 @@ struct Phong {
     friend constexpr bool operator==(const Phong&, const Phong&) = default;
 };
 
+/// Glass, too, whatever its tint: what it mirrors depends on what it encloses.
 template <class R>
 constexpr bool lets_through(const Phong<R>& p) {
-    return p.transmit.function != no_function || !(p.transmit.value == Rgb<R>{});
+    return p.fresnel || p.transmit.function != no_function || !(p.transmit.value == Rgb<R>{});
 }
 /// Whether rays may bend at it, or be mirrored by Fresnel's equations.
 template <class R>

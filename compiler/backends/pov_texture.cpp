@@ -216,7 +216,7 @@ std::vector<std::string> clear_layers(const PaintedPhong& phong, const std::stri
 /// half, but not highlights and reflections of the top layer; it has no coloured highlights, so these are
 /// white on a black layer at the bottom, under a layer that filters them.
 std::vector<std::string> layers_of(const PaintedPhong& phong, const std::string& roughness) {
-    const bool transparent = !phong.transmit.is_black();
+    const bool transparent = phong.fresnel || !phong.transmit.is_black();
     std::vector<Body> bodies = bodies_of(phong);
     if (transparent && bodies[0].paint.is_black()) {
         bodies.clear();
