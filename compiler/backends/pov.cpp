@@ -6,6 +6,7 @@
 #include "compiler/backends/pov_shape.h"
 #include "compiler/backends/pov_text.h"
 #include "compiler/backends/spectra.h"
+#include "compiler/bounds.h"
 #include "compiler/field_bounds.h"
 #include "compiler/ir/objects.h"
 #include "compiler/resolve_uv.h"
@@ -13,6 +14,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <limits>
+#include <optional>
 #include <set>
 #include <type_traits>
 #include <utility>
@@ -80,7 +84,7 @@ private:
         file.line("global_settings {{");
         file.indent();
         file.line("assumed_gamma 1.0");
-        file.line("max_trace_level {}", settings.depth + 1);
+        file.line("max_trace_level {}", settings.depth + (takes_bounces() ? 1 : 2));
         file.line("adc_bailout 0");
         file.line("ambient_light rgb scc_exposure*{}", pov_color(scene_.ambient));
         file.dedent();
@@ -92,9 +96,27 @@ private:
         note_settings();
     }
 
+    /// POV-Ray counts no level for a ray that goes straight on, but lets none go on at the last one. Where
+    /// nothing else takes levels, one more does no harm.
+    bool takes_bounces() const {
+        return scene_.traits.reflection || scene_.traits.refraction || !scene_.traits.transmission;
+    }
+    bool passes_straight() const {
+        return std::any_of(scene_.materials.begin(), scene_.materials.end(),
+                           [](const ir::Material& m) { return lets_through(m.phong) && m.phong.ior == 1; });
+    }
+
     void note_settings() {
         const runtime::RenderSettings& settings = scene_.settings;
-        note(Fidelity::exact, "depth", "render", {}, "max_trace_level");
+        if (takes_bounces() && passes_straight()) {
+            note(Fidelity::approximated, "depth", "render", {},
+                 "max_trace_level; a ray that goes straight through a surface after its last bounce sees "
+                 "black; "
+                 "bound in radiance at such pixels",
+                 1);
+        } else {
+            note(Fidelity::exact, "depth", "render", {}, "max_trace_level");
+        }
         if (!settings.shadows) {
             note(Fidelity::exact, "shadows", "render", {}, "every object is no_shadow");
         }
@@ -366,12 +388,43 @@ private:
     }
 
     void note_refraction(const ir::Object& object) {
-        const auto refracts_at = [&](std::uint32_t material) {
-            return refracts(scene_.materials[material].phong);
-        };
-        if (refracts_at(object.sides.front) || refracts_at(object.sides.back)) {
+        const runtime::Phong<double>&front = scene_.materials[object.sides.front].phong,
+              &back = scene_.materials[object.sides.back].phong;
+        if ((front.fresnel || back.fresnel) && has_other_bodies(object)) {
+            note(Fidelity::approximated, "glass", object.path, object.span,
+                 "what it mirrors where it is in another transparent body, or has one on its surface, is "
+                 "that of "
+                 "glass in air; bound in radiance at such pixels",
+                 1);
+        } else if (refracts(front) || refracts(back)) {
             note(Fidelity::exact, "refraction", object.path, object.span, "interior");
         }
+    }
+
+    /// Whether the box around some other transparent body meets the object's. Of so many that it would take
+    /// long to find out, it is assumed.
+    bool has_other_bodies(const ir::Object& object) {
+        if (bodies_.empty()) {
+            ir::for_each_surface(scene_, [&](const ir::Object& one) {
+                if (lets_through(scene_.materials[one.sides.front].phong) ||
+                    lets_through(scene_.materials[one.sides.back].phong)) {
+                    bodies_.push_back({one.path, box_of(one)});
+                }
+            });
+        }
+        const runtime::Bounds<double> box = box_of(object);
+        return bodies_.size() > most_bodies ||
+               std::any_of(bodies_.begin(), bodies_.end(), [&](const auto& body) {
+                   const Vec3<double> gap =
+                       maximum(body.second.min, box.min) - minimum(body.second.max, box.max);
+                   return body.first != object.path && largest_component(gap) <= 0;
+               });
+    }
+    runtime::Bounds<double> box_of(const ir::Object& object) const {
+        constexpr double inf = std::numeric_limits<double>::infinity();
+        const std::optional<runtime::Bounds<double>> own = object_bounds(object.shape, scene_);
+        return own ? transform_bounds(object.world_from_object, *own)
+                   : runtime::Bounds<double>{{-inf, -inf, -inf}, {inf, inf, inf}};
     }
 
     bool has_smooth_normals(const ir::Object& object) const {
@@ -403,6 +456,8 @@ private:
     Identifiers mesh_identifiers_{"mesh_"};
     std::vector<std::string> mesh_names_;
     std::set<std::uint32_t> declared_meshes_;
+    static constexpr std::size_t most_bodies = 1000;
+    std::vector<std::pair<std::string, runtime::Bounds<double>>> bodies_; ///< transparent ones
 };
 
 } // namespace
