@@ -344,16 +344,20 @@ cone { radius_from = 1, material = phong { diffuse = windy }, transform = scale(
 TEST_F(PovRender, Transparency) {
     expect_same_picture(
         room + camera + lamp +
-        "sphere { center = (-1.5, 1, 0), material = phong { diffuse = rgb(0.6, 0.2, 0.1), specular = "
-        "rgb(0.4, "
-        "0.2, 0.1), opacity = 0.4, transmit = rgb(0, 0.2, 0.1), reflect = rgb(0.1, 0.1, 0.2) } }\n"
-        "box { min = (0.2, 0.01, -1), max = (0.4, 2, 1), material = phong { diffuse = rgb(0, 0, 0), specular "
-        "= "
-        "rgb(0.6, 0, 0.2), transmit = rgb(0.9, 0.5, 0) } }\n"
-        "disc { center = (2, 1, 0), normal = (1, 0, 2), material = phong { diffuse = fn(s: surface) = "
-        "rgb(0.5, "
-        "0.4 * s.p.y, 0.1), specular = rgb(0.3, 0.3, 0.3), opacity = fn(s: surface) = 0.5 + 0.4 * sin(5 * "
-        "s.p.x) } }\n");
+            "sphere { center = (-1.5, 1, 0), material = phong { diffuse = rgb(0.6, 0.2, 0.1), specular = "
+            "rgb(0.4, "
+            "0.2, 0.1), opacity = 0.4, transmit = rgb(0, 0.2, 0.1), reflect = rgb(0.1, 0.1, 0.2) } }\n"
+            "box { min = (0.2, 0.01, -1), max = (0.4, 2, 1), material = phong { diffuse = rgb(0, 0, 0), "
+            "specular "
+            "= "
+            "rgb(0.6, 0, 0.2), transmit = rgb(0.9, 0.5, 0) } }\n"
+            "disc { center = (2, 1, 0), normal = (1, 0, 2), material = phong { diffuse = fn(s: surface) = "
+            "rgb(0.5, "
+            "0.4 * s.p.y, 0.1), specular = rgb(0.3, 0.3, 0.3), opacity = fn(s: surface) = 0.5 + 0.4 * sin(5 "
+            "* "
+            "s.p.x) } }\n"
+            "render { method = ray { depth = 12 } }\n",
+        4);
 }
 
 TEST_F(PovRender, Refraction) {
@@ -380,10 +384,11 @@ TEST_F(PovRender, Refraction) {
 TEST_F(PovRender, CameraInGlassAndInWater) {
     expect_same_picture(
         room + camera + lamp +
+            "let wet = phong { diffuse = rgb(0, 0, 0), transmit = rgb(0.9, 1, 0.9), ior = 1.5 }\n"
             "sphere { center = (0, 2, 2), radius = 9, material = phong { diffuse = rgb(0, 0, 0), transmit = "
             "rgb(0.9, 0.9, 1), ior = 1.33 } }\n"
-            "box { min = (2, 3, 6), max = (4, 5, 8), material = glass { } }\n"
-            "sphere { center = (0, 1, 0), material = glass { } }\n",
+            "box { min = (2, 3, 6), max = (4, 5, 8), material = wet }\n"
+            "sphere { center = (0, 1, 0), material = wet }\n",
         4);
 }
 
