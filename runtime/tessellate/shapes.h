@@ -28,17 +28,6 @@ int circle_segments(R radius, const Tolerance<R>& tolerance) {
     return std::clamp(static_cast<int>(std::ceil(std::min(needed, R(most_segments)))), 3, most_segments);
 }
 
-/// Two unit vectors that with a unit one make a right-handed frame.
-template <class R>
-std::array<Vec3<R>, 2> frame_around(const Vec3<R>& w) {
-    const Vec3<R> size = absolute(w);
-    const Vec3<R> axis = size.x <= size.y && size.x <= size.z ? Vec3<R>{1, 0, 0}
-                         : size.y <= size.z                   ? Vec3<R>{0, 1, 0}
-                                                              : Vec3<R>{0, 0, 1};
-    const Vec3<R> u = normalize(cross(axis, w));
-    return {u, cross(w, u)};
-}
-
 /// Unit vectors across an axis, counter-clockwise seen from its end. `offset` in segments.
 template <class R>
 std::vector<Vec3<R>> directions_around(const Vec3<R>& axis, int segments, R offset = 0) {

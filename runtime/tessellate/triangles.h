@@ -52,6 +52,17 @@ struct Triangles {
     }
 };
 
+/// Two unit vectors that with a unit one make a right-handed frame.
+template <class R>
+std::array<Vec3<R>, 2> frame_around(const Vec3<R>& w) {
+    const Vec3<R> size = absolute(w);
+    const Vec3<R> axis = size.x <= size.y && size.x <= size.z ? Vec3<R>{1, 0, 0}
+                         : size.y <= size.z                   ? Vec3<R>{0, 1, 0}
+                                                              : Vec3<R>{0, 0, 1};
+    const Vec3<R> u = normalize(cross(axis, w));
+    return {u, cross(w, u)};
+}
+
 /// How much a map can lengthen and can shorten vectors: bounds, by the norms of its columns and of its
 /// inverse's.
 template <class R>

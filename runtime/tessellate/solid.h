@@ -1,0 +1,143 @@
+#pragma once
+
+#include "runtime/tessellate/solid_contour.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+/// Meshes of solids made of others and of implicit surfaces: closed, each edge of two triangles that run
+/// along it in opposite ways, sharp where members' faces meet.
+namespace scc::runtime {
+
+/// When to stop dividing.
+struct SolidLimits {
+    std::size_t most_cells = 6'000'000;
+};
+
+template <class R>
+struct SolidMesh {
+    Triangles<R> mesh; ///< in the world; Triangle3::part indexes `faces`
+    std::vector<SolidFace<R>> faces;
+    std::vector<SmoothSurface<R>> surfaces; ///< SolidFace::surface indexes them
+    R deviation = 0;                        ///< of the mesh from the surface, as measured on all triangles
+    std::size_t uncertain = 0; ///< cells at the limits in which there may be more of the surface: thin walls
+};
+
+namespace detail {
+
+template <class S>
+class SolidTessellator {
+public:
+    using R = typename S::Real;
+
+    SolidTessellator(const SolidField<S>& field, const Tolerance<R>& tolerance, const SolidLimits& limits)
+        : field_(field), tolerance_(tolerance), octree_(field, tolerance, limits.most_cells) {}
+
+    SolidMesh<R> run() {
+        constexpr int most_rounds = 8;
+        SolidMesh<R> result;
+        for (int round = 0; round < most_rounds; ++round) {
+            SolidContour<S> contour(field_, octree_, crossings_);
+            std::vector<std::uint32_t> coarse;
+            result.deviation = measure(contour, coarse);
+            result.mesh = contour.take_mesh();
+            if (coarse.empty() || round + 1 == most_rounds) {
+                break;
+            }
+            octree_.divide(coarse);
+        }
+        result.faces = field_.faces();
+        result.surfaces = field_.surfaces();
+        result.uncertain = octree_.uncertain();
+        return result;
+    }
+
+private:
+    /// The largest distance of a sample from the surface; collects the cells of triangles that are too far
+    /// away, or too large for the way the normal turns, and can be divided.
+    R measure(const SolidContour<S>& contour, std::vector<std::uint32_t>& coarse) const {
+        const Triangles<R>& mesh = contour.mesh();
+        R deviation = 0;
+        for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+            const R away = distance(mesh, mesh.triangles[i]);
+            deviation = std::max(deviation, away);
+            if (away > tolerance_.distance ||
+                (away > tolerance_.distance * SolidOctree<S>::least_bulge && turns(mesh, mesh.triangles[i]))) {
+                for (const std::uint32_t cell : contour.cells_of(i)) {
+                    if (octree_.is_divisible(octree_.cells()[cell])) {
+                        coarse.push_back(cell);
+                    }
+                }
+            }
+        }
+        std::sort(coarse.begin(), coarse.end());
+        coarse.erase(std::unique(coarse.begin(), coarse.end()), coarse.end());
+        return deviation;
+    }
+
+    R distance(const Triangles<R>& mesh, const Triangle3& t) const {
+        const Vec3<R>&a = mesh.positions[t.positions[0]], &b = mesh.positions[t.positions[1]],
+              &c = mesh.positions[t.positions[2]];
+        const R half(0.5);
+        R most = distance((a + b + c) * (R(1) / 3));
+        for (const Vec3<R>& p : {a, b, c, (a + b) * half, (b + c) * half, (c + a) * half}) {
+            most = std::max(most, distance(p));
+        }
+        return most;
+    }
+    /// To first order; 0 where a field has no gradient.
+    R distance(const Vec3<R>& p) const {
+        const OctreeCell& cell = octree_.cells()[octree_.find(p)];
+        const SolidNode* program =
+            cell.side == Side::open ? octree_.program_of(cell) : octree_.whole_program();
+        const std::uint32_t face = field_.value(program, p).face;
+        const LocalPlane<R> plane = field_.plane_at(field_.faces()[face].surface, p);
+        return plane.usable ? std::abs(plane.distance) : R(0);
+    }
+
+    bool turns(const Triangles<R>& mesh, const Triangle3& t) const {
+        const R least = std::cos(tolerance_.angle);
+        const Vec3<R>&a = mesh.normals[t.normals[0]], &b = mesh.normals[t.normals[1]],
+              &c = mesh.normals[t.normals[2]];
+        return dot(a, b) < least || dot(b, c) < least || dot(c, a) < least;
+    }
+
+    const SolidField<S>& field_;
+    Tolerance<R> tolerance_;
+    SolidOctree<S> octree_;
+    typename SolidContour<S>::Crossings crossings_;
+};
+
+template <class S>
+SolidMesh<typename S::Real> tessellate_field(const SolidField<S>& field,
+                                             const Tolerance<typename S::Real>& tolerance,
+                                             const SolidLimits& limits) {
+    const auto size = field.bounds().max - field.bounds().min;
+    const bool is_bounded = size.x > 0 && size.y > 0 && size.z > 0 &&
+                            largest_component(size) < infinity<typename S::Real>();
+    return is_bounded ? SolidTessellator<S>(field, tolerance, limits).run()
+                      : SolidMesh<typename S::Real>{};
+}
+
+} // namespace detail
+
+/// The solid whose tree begins at csg_nodes[root]. Empty where there is nothing in it, or its members do not
+/// bound it.
+template <class S>
+SolidMesh<typename S::Real> tessellate_solid(const S& scene, std::uint32_t root,
+                                             const Tolerance<typename S::Real>& tolerance,
+                                             const SolidLimits& limits = {}) {
+    return detail::tessellate_field(SolidField<S>::of_solid(scene, root), tolerance, limits);
+}
+
+/// A Bare or Placed implicit surface.
+template <class S, class Primitive>
+SolidMesh<typename S::Real> tessellate_implicit(const S& scene, const Primitive& primitive,
+                                                const Tolerance<typename S::Real>& tolerance,
+                                                const SolidLimits& limits = {}) {
+    return detail::tessellate_field(SolidField<S>::of_implicit(scene, primitive), tolerance, limits);
+}
+
+} // namespace scc::runtime
