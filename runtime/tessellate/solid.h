@@ -63,7 +63,7 @@ private:
         for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
             const R away = distance(mesh, mesh.triangles[i]);
             deviation = std::max(deviation, away);
-            if (away > tolerance_.distance ||
+            if (away > tolerance_.distance || is_folded(mesh, mesh.triangles[i]) ||
                 (away > tolerance_.distance * SolidOctree<S>::least_bulge && turns(mesh, mesh.triangles[i]))) {
                 for (const std::uint32_t cell : contour.cells_of(i)) {
                     if (octree_.is_divisible(octree_.cells()[cell])) {
@@ -95,6 +95,17 @@ private:
         const std::uint32_t face = field_.value(program, p).face;
         const LocalPlane<R> plane = field_.plane_at(field_.faces()[face].surface, p);
         return plane.usable ? std::abs(plane.distance) : R(0);
+    }
+
+    /// Seen from outside it shows its back, and is no sliver.
+    bool is_folded(const Triangles<R>& mesh, const Triangle3& t) const {
+        const Vec3<R>&a = mesh.positions[t.positions[0]], &b = mesh.positions[t.positions[1]],
+              &c = mesh.positions[t.positions[2]];
+        const Vec3<R> flat = cross(b - a, c - a), middle = (a + b + c) * (R(1) / 3);
+        const SolidFace<R>& face = field_.faces()[t.part];
+        const LocalPlane<R> plane = field_.plane_at(face.surface, middle);
+        const R longest = std::max({length(b - a), length(c - b), length(a - c)});
+        return dot(flat, plane.normal) * face.sign < 0 && length(flat) > tolerance_.distance * longest;
     }
 
     bool turns(const Triangles<R>& mesh, const Triangle3& t) const {

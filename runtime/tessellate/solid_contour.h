@@ -235,7 +235,8 @@ private:
         }
     }
     void pair(const Passage& a, const Passage& b) {
-        const std::uint32_t arc = arc_count_++;
+        const auto arc = static_cast<std::uint32_t>(arc_ends_.size());
+        arc_ends_.push_back({a.edge, b.edge});
         arcs_[corner_of(a.edge, a.slot)] = arcs_[corner_of(b.edge, b.slot)] = arc;
         for (const std::uint32_t side : {0U, 1U}) {
             const std::uint32_t cell = edges_[a.edge].cells[(a.slot + side) % 4];
@@ -298,35 +299,58 @@ private:
         std::stable_sort(order.begin(), order.end(),
                          [&](std::uint32_t a, std::uint32_t b) { return parents_[a] < parents_[b]; });
         points_.resize(parents_.size());
-        std::vector<const Crossing*> crossings;
+        Patch patch;
         for (std::size_t i = 0; i < order.size();) {
             const std::uint32_t set = parents_[order[i]];
-            const OctreeCell& cell = octree_.cells()[edges_[set / 4].cells[set % 4]];
-            crossings.clear();
-            std::uint32_t last = none;
+            patch = {&octree_.cells()[edges_[set / 4].cells[set % 4]], {}, {}};
             const auto point = static_cast<std::uint32_t>(mesh_.positions.size());
+            std::uint32_t last = none;
             for (; i < order.size() && parents_[order[i]] == set; ++i) {
+                const std::uint32_t edge = order[i] / 4, slot = order[i] % 4;
                 points_[order[i]] = point;
-                if (order[i] / 4 != last) {
-                    last = order[i] / 4;
-                    crossings.push_back(&edges_[last].crossing);
+                if (edge != last) {
+                    last = edge;
+                    patch.crossings.push_back(&edges_[edge].crossing);
                 }
+                add_turn(patch, edge, slot, slot + 1);
+                add_turn(patch, edge, slot + 3, slot);
             }
-            mesh_.add_position(place(crossings, cell));
+            mesh_.add_position(place(patch));
         }
     }
 
+    /// What of the surface is in one cell and hangs together there.
+    struct Patch {
+        const OctreeCell* cell;
+        std::vector<const Crossing*> crossings;
+        std::vector<Vec3<R>> turns; ///< middles of the arcs from one face to another
+    };
+    void add_turn(Patch& patch, std::uint32_t edge, std::uint32_t slot, std::uint32_t next) const {
+        const auto& cells = edges_[edge].cells;
+        if (cells[slot % 4] != cells[next % 4]) {
+            const auto& ends = arc_ends_[arcs_[corner_of(edge, slot)]];
+            const Crossing&a = edges_[ends[0]].crossing, &b = edges_[ends[1]].crossing;
+            if (surface_of(a) != surface_of(b)) {
+                patch.turns.push_back((a.point + b.point) * R(0.5));
+            }
+        }
+    }
+    std::uint32_t surface_of(const Crossing& crossing) const {
+        return field_.faces()[crossing.face].surface;
+    }
+
     /// A point on all the faces that the surface in a cell has.
-    Vec3<R> place(const std::vector<const Crossing*>& crossings, const OctreeCell& cell) const {
-        Vec3<R> mean{};
+    Vec3<R> place(const Patch& patch) const {
+        const auto& crossings = patch.crossings;
         std::vector<std::uint32_t> surfaces;
+        Vec3<R> mean{};
         bool has_jump = false;
         R turn = 1;
         for (const Crossing* crossing : crossings) {
             mean = mean + crossing->point * (1 / R(crossings.size()));
             has_jump |= crossing->is_jump;
             turn = std::min(turn, dot(crossing->normal, crossings[0]->normal));
-            const std::uint32_t surface = field_.faces()[crossing->face].surface;
+            const std::uint32_t surface = surface_of(*crossing);
             if (std::find(surfaces.begin(), surfaces.end(), surface) == surfaces.end()) {
                 surfaces.push_back(surface);
             }
@@ -334,13 +358,17 @@ private:
         if (has_jump) {
             return mean;
         }
-        const bool is_sharp = surfaces.size() > 1 || turn < R(0.5);
-        if (!is_sharp || surfaces.size() > 1) {
-            if (const auto found = on_surfaces(surfaces, mean, cell)) {
+        Vec3<R> start = patch.turns.empty() ? mean : Vec3<R>{};
+        for (const Vec3<R>& p : patch.turns) {
+            start = start + p * (1 / R(patch.turns.size()));
+        }
+        const bool is_bent = turn < R(0.5);
+        if (surfaces.size() > 1 || !is_bent) {
+            if (const auto found = on_surfaces(surfaces, start, *patch.cell)) {
                 return *found;
             }
         }
-        return is_sharp ? on_planes(crossings, mean, cell) : mean;
+        return surfaces.size() > 1 || is_bent ? on_planes(crossings, start, *patch.cell) : mean;
     }
 
     /// Near to `start`, by Newton's steps of least length on all of them at once.
@@ -362,7 +390,7 @@ private:
             }
             const Vec3<R> step = fit.solve(R(1e-4));
             p = p + step;
-            if (!is_near(p, cell, size / 4)) {
+            if (!is_near(p, cell, size * 2)) {
                 return std::nullopt;
             }
             if (length(step) <= enough) {
@@ -372,13 +400,13 @@ private:
         return std::nullopt;
     }
     /// Where the tangential planes of the crossings meet: at a tip, or at the edge of a crease in a field.
-    Vec3<R> on_planes(const std::vector<const Crossing*>& crossings, const Vec3<R>& mean,
+    Vec3<R> on_planes(const std::vector<const Crossing*>& crossings, const Vec3<R>& start,
                       const OctreeCell& cell) const {
         PlaneFit<R> fit;
         for (const Crossing* crossing : crossings) {
-            fit.add(crossing->normal, dot(crossing->normal, crossing->point - mean));
+            fit.add(crossing->normal, dot(crossing->normal, crossing->point - start));
         }
-        const Vec3<R> p = mean + fit.solve(R(0.02));
+        const Vec3<R> p = start + fit.solve(R(0.02));
         const Bounds<R> box = octree_.box(cell);
         return minimum(maximum(p, box.min), box.max);
     }
@@ -538,7 +566,7 @@ private:
     std::vector<Edge> edges_;
     std::vector<std::uint32_t> parents_; ///< of each edge's corner in each of its four cells
     std::vector<std::uint32_t> arcs_;    ///< of each edge, towards the next of its cells
-    std::uint32_t arc_count_ = 0;
+    std::vector<std::array<std::uint32_t, 2>> arc_ends_; ///< the edges that an arc joins
     std::vector<std::uint32_t> points_; ///< of each edge in each of its four cells
     std::unordered_map<std::uint64_t, std::uint32_t> uses_; ///< how many polygons' sides join two points
     std::unordered_map<std::uint32_t, std::uint32_t> on_arcs_;

@@ -3,6 +3,7 @@
 #include "runtime/tessellate/triangles.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <utility>
@@ -95,6 +96,34 @@ void for_samples(const Triangles<R>& mesh, F&& f) {
             f(a + (b - a) * w[0] + (c - a) * w[1], t);
         }
     }
+}
+
+/// From the nearest triangle.
+template <class R>
+R distance_to(const Triangles<R>& mesh, const Vec3<R>& p) {
+    const auto to_segment = [&](const Vec3<R>& a, const Vec3<R>& b) {
+        const Vec3<R> along = b - a;
+        const R squared = dot(along, along);
+        const R t = squared > 0 ? std::clamp(dot(p - a, along) / squared, R(0), R(1)) : R(0);
+        return length(p - a - along * t);
+    };
+    R least = infinity<R>();
+    for (const Triangle3& t : mesh.triangles) {
+        const Vec3<R>&a = mesh.positions[t.positions[0]], &b = mesh.positions[t.positions[1]],
+              &c = mesh.positions[t.positions[2]];
+        const R reach = length(b - a) + length(c - a);
+        if (length(p - a) - reach > least) {
+            continue;
+        }
+        const Vec3<R> n = cross(b - a, c - a);
+        const auto left = [&](const Vec3<R>& from, const Vec3<R>& to) {
+            return dot(cross(to - from, p - from), n) >= 0;
+        };
+        const bool above = dot(n, n) > 0 && left(a, b) && left(b, c) && left(c, a);
+        least = std::min(least, above ? std::abs(dot(p - a, n)) / length(n)
+                                      : std::min({to_segment(a, b), to_segment(b, c), to_segment(c, a)}));
+    }
+    return least;
 }
 
 } // namespace scc::runtime::test
