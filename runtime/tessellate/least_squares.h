@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 /// Points that are near to several planes at once.
 namespace scc::runtime {
@@ -17,6 +18,8 @@ class PlaneFit {
 public:
     /// n . x = d, n of unit length.
     void add(const Vec3<R>& n, R d) {
+        ++count_;
+        foot_ = n * d;
         const std::array<R, 3> v{n.x, n.y, n.z};
         for (std::size_t i = 0; i < 3; ++i) {
             for (std::size_t k = 0; k < 3; ++k) {
@@ -29,6 +32,9 @@ public:
     /// By the eigenvectors of the symmetric matrix; those count whose eigenvalues are more than `least` of
     /// the largest one.
     Vec3<R> solve(R least) const {
+        if (count_ == 1) {
+            return foot_;
+        }
         Matrix a = matrix_, vectors{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
         diagonalize(a, vectors);
         const R largest = std::max({a[0][0], a[1][1], a[2][2]});
@@ -50,7 +56,11 @@ private:
     static void diagonalize(Matrix& a, Matrix& vectors) {
         constexpr int sweeps = 12;
         constexpr std::array<std::array<std::size_t, 2>, 3> pairs{{{0, 1}, {0, 2}, {1, 2}}};
+        const R small = std::numeric_limits<R>::epsilon() * (a[0][0] + a[1][1] + a[2][2]);
         for (int sweep = 0; sweep < sweeps; ++sweep) {
+            if (std::max({std::abs(a[0][1]), std::abs(a[0][2]), std::abs(a[1][2])}) <= small) {
+                return;
+            }
             for (const auto& [p, q] : pairs) {
                 if (a[p][q] == 0) {
                     continue;
@@ -75,6 +85,8 @@ private:
         }
     }
 
+    int count_ = 0;
+    Vec3<R> foot_{}; ///< of the last plane
     Matrix matrix_{};
     std::array<R, 3> right_{};
 };

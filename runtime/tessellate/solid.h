@@ -22,7 +22,8 @@ struct SolidMesh {
     std::vector<SolidFace<R>> faces;
     std::vector<SmoothSurface<R>> surfaces; ///< SolidFace::surface indexes them
     R deviation = 0;                        ///< of the mesh from the surface, as measured on all triangles
-    std::size_t uncertain = 0; ///< cells at the limits in which there may be more of the surface: thin walls
+    std::size_t uncertain = 0; ///< smallest cells that may have more of the surface than their corners show:
+                               ///< at tips, in walls thinner than the tolerance
 };
 
 namespace detail {
@@ -36,7 +37,7 @@ public:
         : field_(field), tolerance_(tolerance), octree_(field, tolerance, limits.most_cells) {}
 
     SolidMesh<R> run() {
-        constexpr int most_rounds = 8;
+        constexpr int most_rounds = 12;
         SolidMesh<R> result;
         for (int round = 0; round < most_rounds; ++round) {
             SolidContour<S> contour(field_, octree_, crossings_);
@@ -59,12 +60,17 @@ private:
     /// away, or too large for the way the normal turns, and can be divided.
     R measure(const SolidContour<S>& contour, std::vector<std::uint32_t>& coarse) const {
         const Triangles<R>& mesh = contour.mesh();
+        std::vector<R> of_points;
+        for (const Vec3<R>& p : mesh.positions) {
+            of_points.push_back(distance(p));
+        }
         R deviation = 0;
         for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-            const R away = distance(mesh, mesh.triangles[i]);
+            const Triangle3& triangle = mesh.triangles[i];
+            const R away = distance(mesh, triangle, of_points);
             deviation = std::max(deviation, away);
-            if (away > tolerance_.distance || is_folded(mesh, mesh.triangles[i]) ||
-                (away > tolerance_.distance * SolidOctree<S>::least_bulge && turns(mesh, mesh.triangles[i]))) {
+            if (away > tolerance_.distance || is_folded(mesh, triangle) ||
+                (away > tolerance_.distance * SolidOctree<S>::least_bulge && turns(mesh, triangle))) {
                 for (const std::uint32_t cell : contour.cells_of(i)) {
                     if (octree_.is_divisible(octree_.cells()[cell])) {
                         coarse.push_back(cell);
@@ -77,23 +83,23 @@ private:
         return deviation;
     }
 
-    R distance(const Triangles<R>& mesh, const Triangle3& t) const {
-        const Vec3<R>&a = mesh.positions[t.positions[0]], &b = mesh.positions[t.positions[1]],
-              &c = mesh.positions[t.positions[2]];
-        const R half(0.5);
-        R most = distance((a + b + c) * (R(1) / 3));
-        for (const Vec3<R>& p : {a, b, c, (a + b) * half, (b + c) * half, (c + a) * half}) {
-            most = std::max(most, distance(p));
+    /// Of the corners, the middle, and the middles of those edges that its neighbours do not look at.
+    R distance(const Triangles<R>& mesh, const Triangle3& t, const std::vector<R>& of_points) const {
+        R most = 0;
+        Vec3<R> sum{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t a = t.positions[i], b = t.positions[(i + 1) % 3];
+            most = std::max(most, of_points[a]);
+            sum = sum + mesh.positions[a];
+            if (a < b) {
+                most = std::max(most, distance((mesh.positions[a] + mesh.positions[b]) * R(0.5)));
+            }
         }
-        return most;
+        return std::max(most, distance(sum * (R(1) / 3)));
     }
     /// To first order; 0 where a field has no gradient.
     R distance(const Vec3<R>& p) const {
-        const OctreeCell& cell = octree_.cells()[octree_.find(p)];
-        const SolidNode* program =
-            cell.side == Side::open ? octree_.program_of(cell) : octree_.whole_program();
-        const std::uint32_t face = field_.value(program, p).face;
-        const LocalPlane<R> plane = field_.plane_at(field_.faces()[face].surface, p);
+        const LocalPlane<R> plane = field_.plane_at(field_.faces()[octree_.face_at(p)].surface, p);
         return plane.usable ? std::abs(plane.distance) : R(0);
     }
 
@@ -126,10 +132,9 @@ SolidMesh<typename S::Real> tessellate_field(const SolidField<S>& field,
                                              const Tolerance<typename S::Real>& tolerance,
                                              const SolidLimits& limits) {
     const auto size = field.bounds().max - field.bounds().min;
-    const bool is_bounded = size.x > 0 && size.y > 0 && size.z > 0 &&
-                            largest_component(size) < infinity<typename S::Real>();
-    return is_bounded ? SolidTessellator<S>(field, tolerance, limits).run()
-                      : SolidMesh<typename S::Real>{};
+    const bool is_bounded =
+        size.x > 0 && size.y > 0 && size.z > 0 && largest_component(size) < infinity<typename S::Real>();
+    return is_bounded ? SolidTessellator<S>(field, tolerance, limits).run() : SolidMesh<typename S::Real>{};
 }
 
 } // namespace detail

@@ -15,9 +15,9 @@
 #include <utility>
 #include <vector>
 
-/// The surface of a solid from the sides of the corners of an octree's cells, by dual contouring (Ju, Losasso,
-/// Schaefer, Warren, "Dual Contouring of Hermite Data", 2002): a polygon for each edge of the smallest cells
-/// that crosses the surface, between points in the cells around it.
+/// The surface of a solid from the sides of the corners of an octree's cells, by dual contouring (Ju,
+/// Losasso, Schaefer, Warren, "Dual Contouring of Hermite Data", 2002): a polygon for each edge of the
+/// smallest cells that crosses the surface, between points in the cells around it.
 ///
 /// It is closed and a manifold whatever the signs are: in each rectangle that two cells share, the edges that
 /// cross the surface are paired; a cell has a point of its own for each ring that these pairs make on its
@@ -130,8 +130,9 @@ private:
     }
 
     const Crossing& crossing_of(const Edge& edge, const OctreeCell& cell) {
-        const std::uint64_t key = ((std::uint64_t{edge.low[0]} << 34 | std::uint64_t{edge.low[1]} << 17) | edge.low[2]) |
-                                  std::uint64_t{edge.axis} << 51 | std::uint64_t{cell.level} << 53;
+        const std::uint64_t key =
+            ((std::uint64_t{edge.low[0]} << 34 | std::uint64_t{edge.low[1]} << 17) | edge.low[2]) |
+            std::uint64_t{edge.axis} << 51 | std::uint64_t{cell.level} << 53;
         const auto [found, is_new] = crossings_.try_emplace(key);
         if (is_new) {
             found->second = find_crossing(edge, cell);
@@ -329,15 +330,13 @@ private:
         const auto& cells = edges_[edge].cells;
         if (cells[slot % 4] != cells[next % 4]) {
             const auto& ends = arc_ends_[arcs_[corner_of(edge, slot)]];
-            const Crossing&a = edges_[ends[0]].crossing, &b = edges_[ends[1]].crossing;
+            const Crossing &a = edges_[ends[0]].crossing, &b = edges_[ends[1]].crossing;
             if (surface_of(a) != surface_of(b)) {
                 patch.turns.push_back((a.point + b.point) * R(0.5));
             }
         }
     }
-    std::uint32_t surface_of(const Crossing& crossing) const {
-        return field_.faces()[crossing.face].surface;
-    }
+    std::uint32_t surface_of(const Crossing& crossing) const { return field_.faces()[crossing.face].surface; }
 
     /// A point on all the faces that the surface in a cell has.
     Vec3<R> place(const Patch& patch) const {
@@ -364,11 +363,34 @@ private:
         }
         const bool is_bent = turn < R(0.5);
         if (surfaces.size() > 1 || !is_bent) {
-            if (const auto found = on_surfaces(surfaces, start, *patch.cell)) {
+            if (const auto found = on_solid(surfaces, start, *patch.cell)) {
                 return *found;
             }
         }
         return surfaces.size() > 1 || is_bent ? on_planes(crossings, start, *patch.cell) : mean;
+    }
+
+    /// On these surfaces, and where they leave the solid there, on the one that cuts them off, too.
+    std::optional<Vec3<R>> on_solid(std::vector<std::uint32_t> surfaces, const Vec3<R>& start,
+                                    const OctreeCell& cell) const {
+        constexpr std::size_t most_surfaces = 6;
+        const R enough = octree_.edge_length(cell) * R(1e-3);
+        std::optional<Vec3<R>> found = on_surfaces(surfaces, start, cell);
+        while (found && surfaces.size() < most_surfaces) {
+            const std::uint32_t other = field_.faces()[octree_.face_at(*found)].surface;
+            const LocalPlane<R> plane = field_.plane_at(other, *found);
+            if (!plane.usable || std::abs(plane.distance) <= enough ||
+                std::find(surfaces.begin(), surfaces.end(), other) != surfaces.end()) {
+                break;
+            }
+            surfaces.push_back(other);
+            const auto further = on_surfaces(surfaces, *found, cell);
+            if (!further) {
+                break;
+            }
+            found = further;
+        }
+        return found;
     }
 
     /// Near to `start`, by Newton's steps of least length on all of them at once.
@@ -425,7 +447,8 @@ private:
 
     void make_polygons() {
         for (std::uint32_t e = 0; e < edges_.size(); ++e) {
-            for_each_side(e, [&](std::uint32_t a, std::uint32_t b, std::uint32_t) { ++uses_[pair_key(a, b)]; });
+            for_each_side(e,
+                          [&](std::uint32_t a, std::uint32_t b, std::uint32_t) { ++uses_[pair_key(a, b)]; });
         }
         for (std::uint32_t e = 0; e < edges_.size(); ++e) {
             make_polygon(e);
@@ -477,11 +500,10 @@ private:
                        other = diagonal(q[1], q[2], q[3], q[0], crossing);
         const bool takes_one = one.is_better(other);
         const Diagonal& best = takes_one ? one : other;
-        const R in_fan = std::min(
-            {facing(q[0], q[1], crossing), facing(q[1], q[2], crossing), facing(q[2], q[3], crossing), facing(q[3], q[0], crossing)});
+        const R in_fan = std::min({facing(q[0], q[1], crossing), facing(q[1], q[2], crossing),
+                                   facing(q[2], q[3], crossing), facing(q[3], q[0], crossing)});
         const std::size_t first = takes_one ? 0 : 1;
-        if ((best.facing < R(0.1) && in_fan > best.facing) ||
-            !is_first_use(q[first], q[first + 2])) {
+        if ((best.facing < R(0.1) && in_fan > best.facing) || !is_first_use(q[first], q[first + 2])) {
             make_fan(e);
             return;
         }
@@ -555,7 +577,8 @@ private:
         if (found->second != none && dot(mesh_.normals[found->second], facing) > most_apart) {
             return found->second;
         }
-        const LocalPlane<R> plane = crossing.is_jump ? LocalPlane<R>{} : field_.plane_at(face.surface, middle);
+        const LocalPlane<R> plane =
+            crossing.is_jump ? LocalPlane<R>{} : field_.plane_at(face.surface, middle);
         const Vec3<R> normal = plane.normal * face.sign;
         return mesh_.add_normal(plane.usable && dot(normal, facing) > most_apart ? normal : facing);
     }
@@ -564,14 +587,14 @@ private:
     const SolidOctree<S>& octree_;
     Crossings& crossings_;
     std::vector<Edge> edges_;
-    std::vector<std::uint32_t> parents_; ///< of each edge's corner in each of its four cells
-    std::vector<std::uint32_t> arcs_;    ///< of each edge, towards the next of its cells
+    std::vector<std::uint32_t> parents_;                 ///< of each edge's corner in each of its four cells
+    std::vector<std::uint32_t> arcs_;                    ///< of each edge, towards the next of its cells
     std::vector<std::array<std::uint32_t, 2>> arc_ends_; ///< the edges that an arc joins
-    std::vector<std::uint32_t> points_; ///< of each edge in each of its four cells
+    std::vector<std::uint32_t> points_;                  ///< of each edge in each of its four cells
     std::unordered_map<std::uint64_t, std::uint32_t> uses_; ///< how many polygons' sides join two points
     std::unordered_map<std::uint32_t, std::uint32_t> on_arcs_;
     std::unordered_map<std::uint64_t, std::uint32_t> normals_; ///< of a point and a face
-    std::vector<std::uint32_t> corners_; ///< of the polygon that is being made
+    std::vector<std::uint32_t> corners_;                       ///< of the polygon that is being made
     Triangles<R> mesh_;
     std::vector<std::uint32_t> origin_; ///< of each triangle: its edge
 };

@@ -42,8 +42,8 @@ template <class R>
 struct SolidFace {
     std::uint32_t surface = 0;
     R sign = 1;
-    PrimitiveRef member{};     ///< among the scene's members, if the solid is made of others
-    std::uint32_t part = 0;    ///< as ShapeHit::part
+    PrimitiveRef member{};  ///< among the scene's members, if the solid is made of others
+    std::uint32_t part = 0; ///< as ShapeHit::part
 };
 
 /// A node of a solid's function; those of its operands follow it.
@@ -65,8 +65,8 @@ struct FieldValue {
 /// A surface's function around a point.
 template <class R>
 struct LocalPlane {
-    R distance = 0;    ///< to first order, in world units
-    Vec3<R> normal{};  ///< unit; towards larger values
+    R distance = 0;   ///< to first order, in world units
+    Vec3<R> normal{}; ///< unit; towards larger values
     bool usable = false;
 };
 
@@ -129,10 +129,9 @@ public:
     std::array<Interval<R>, 3> slopes(std::uint32_t surface, const Bounds<R>& box) const {
         using I = Interval<R>;
         using D = Dual<I, 3>;
-        const D d = function(surfaces_[surface],
-                             Vec3<D>{D::variable(I(box.min.x, box.max.x), 0),
-                                     D::variable(I(box.min.y, box.max.y), 1),
-                                     D::variable(I(box.min.z, box.max.z), 2)});
+        const D d = function(surfaces_[surface], Vec3<D>{D::variable(I(box.min.x, box.max.x), 0),
+                                                         D::variable(I(box.min.y, box.max.y), 1),
+                                                         D::variable(I(box.min.z, box.max.z), 2)});
         return {d.d[0], d.d[1], d.d[2]};
     }
 
@@ -164,7 +163,8 @@ private:
     static constexpr int most_tried = 6; ///< surfaces of which all combinations of sides are looked at
 
     SolidField(const S& scene, const Bounds<R>& bounds) : scene_(scene), bounds_(bounds) {
-        size_ = length(bounds.max - bounds.min) + largest_component(maximum(absolute(bounds.min), absolute(bounds.max)));
+        size_ = length(bounds.max - bounds.min) +
+                largest_component(maximum(absolute(bounds.min), absolute(bounds.max)));
         slack_ = size_ * 64 * std::numeric_limits<R>::epsilon();
     }
 
@@ -213,8 +213,9 @@ private:
         KnownSide& known = sides_[surface];
         if (known.round != round_) {
             using I = Interval<R>;
-            const I range = function(surfaces_[surface], Vec3<I>{I(box.min.x, box.max.x), I(box.min.y, box.max.y),
-                                                                 I(box.min.z, box.max.z)});
+            const I range =
+                function(surfaces_[surface],
+                         Vec3<I>{I(box.min.x, box.max.x), I(box.min.y, box.max.y), I(box.min.z, box.max.z)});
             known = {round_, range.min > 0 ? Side::outside : range.max < 0 ? Side::inside : Side::open};
         }
         return known.side;
@@ -289,9 +290,9 @@ private:
         });
     }
     static std::size_t operators(const SolidProgram& program, std::size_t begin) {
-        return static_cast<std::size_t>(
-            std::count_if(program.begin() + static_cast<std::ptrdiff_t>(begin), program.end(),
-                          [](const SolidNode& node) { return node.size > 1; }));
+        return static_cast<std::size_t>(std::count_if(program.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                      program.end(),
+                                                      [](const SolidNode& node) { return node.size > 1; }));
     }
 
     // ---- from the scene's tree
@@ -304,7 +305,8 @@ private:
             return;
         }
         add_group((node.op == CsgOp::unite) == inverted, [&] {
-            for (std::uint32_t child = at + 1; child < at + node.size; child += scene_.csg_nodes[child].size) {
+            for (std::uint32_t child = at + 1; child < at + node.size;
+                 child += scene_.csg_nodes[child].size) {
                 add_node(child, inverted != (node.op == CsgOp::subtract && child > at + 1));
             }
         });
@@ -356,7 +358,8 @@ private:
         surface.w = normal * (1 / size);
         surface.radius = (surface.radius - shift) / size;
     }
-    /// Of an earlier one that is the same within rounding, turned over where sign becomes -1, or of a new one.
+    /// Of an earlier one that is the same within rounding, turned over where sign becomes -1, or of a new
+    /// one.
     std::uint32_t index_of(const Surface& surface, R& sign) {
         constexpr std::size_t most_compared = 4096;
         const std::size_t first = surfaces_.size() > most_compared ? surfaces_.size() - most_compared : 0;
@@ -384,7 +387,8 @@ private:
         s.radius = offset;
         return s;
     }
-    static Surface about_axis(typename Surface::Kind kind, const Vec3<R>& from, const Vec3<R>& axis, R radius) {
+    static Surface about_axis(typename Surface::Kind kind, const Vec3<R>& from, const Vec3<R>& axis,
+                              R radius) {
         Surface s;
         s.kind = kind;
         s.origin = from;
@@ -417,8 +421,7 @@ private:
     }
     void add_shape(const Cone<R>& c, const Face& face) {
         const R height = length(c.to - c.from);
-        Surface side =
-            about_axis(Surface::Kind::cone, c.from, (c.to - c.from) * (1 / height), c.radius_from);
+        Surface side = about_axis(Surface::Kind::cone, c.from, (c.to - c.from) * (1 / height), c.radius_from);
         side.slope = (c.radius_to - c.radius_from) / height;
         add_between(c.from, c.to, face, side);
     }
@@ -446,14 +449,14 @@ private:
 
     const S& scene_;
     Bounds<R> bounds_;
-    R size_ = 1;  ///< of the largest coordinates
-    R slack_ = 0; ///< surfaces no farther apart are one
+    R size_ = 1;                       ///< of the largest coordinates
+    R slack_ = 0;                      ///< surfaces no farther apart are one
     const Affine<R>* place_ = nullptr; ///< of the member that is being added
     std::vector<Surface> surfaces_;
     std::vector<Face> faces_;
     SolidProgram program_;
-    mutable std::uint64_t round_ = 0;        ///< counts boxes that were looked at
-    mutable std::vector<KnownSide> sides_;   ///< of the surfaces in the last ones
+    mutable std::uint64_t round_ = 0;      ///< counts boxes that were looked at
+    mutable std::vector<KnownSide> sides_; ///< of the surfaces in the last ones
 };
 
 } // namespace scc::runtime

@@ -42,7 +42,7 @@ public:
         const Vec3<R> half = (box.max - box.min) * R(0.5);
         origin_ = middle - half - Vec3<R>{margin, margin * R(1.0321), margin * R(0.9713)};
         finest_ = 4;
-        while (finest_ < most_levels && size_ / R(1 << finest_) > tolerance.distance) {
+        while (finest_ < most_levels && size_ / R(1 << finest_) > tolerance.distance / 4) {
             ++finest_;
         }
         programs_ = field.program();
@@ -89,6 +89,13 @@ public:
         return find(GridPoint{unit(p.x, origin_.x), unit(p.y, origin_.y), unit(p.z, origin_.z)});
     }
 
+    /// The face whose function is the solid's at a point.
+    std::uint32_t face_at(const Vec3<R>& p) const {
+        const OctreeCell& cell = cells_[find(p)];
+        const SolidNode* program = cell.side == Side::open ? program_of(cell) : whole_program();
+        return program->size == 1 ? program->face : field_.value(program, p).face;
+    }
+
     /// Whether one may be divided further.
     bool is_divisible(const OctreeCell& cell) const {
         return !cell.is_split && cell.level < finest_ && cells_.size() + 8 <= most_cells_;
@@ -106,9 +113,10 @@ public:
 
     /// Cells in which there may be more of the surface than their corners show.
     std::size_t uncertain() const {
-        return static_cast<std::size_t>(std::count_if(cells_.begin(), cells_.end(), [&](const OctreeCell& cell) {
-            return !cell.is_split && cell.side == Side::open && !is_one_sheet(cell);
-        }));
+        return static_cast<std::size_t>(
+            std::count_if(cells_.begin(), cells_.end(), [&](const OctreeCell& cell) {
+                return !cell.is_split && cell.side == Side::open && !is_one_sheet(cell);
+            }));
     }
 
 private:
@@ -190,7 +198,8 @@ private:
         if (cell.side != Side::open) {
             return false;
         }
-        return cell.level < least_level || !is_one_sheet(cell) || is_curved(cell);
+        return cell.level < least_level || is_curved(cell) ||
+               (edge_length(cell) > tolerance_.distance && !is_one_sheet(cell));
     }
 
     /// Whether there is a direction in which the function grows everywhere in the cell, so that the surface
@@ -240,7 +249,8 @@ private:
     };
     bool add_slopes(const SolidFace<R>& face, const Bounds<R>& around) const {
         const auto bounds = field_.slopes(face.surface, around);
-        Vec3<R> low{bounds[0].min, bounds[1].min, bounds[2].min}, high{bounds[0].max, bounds[1].max, bounds[2].max};
+        Vec3<R> low{bounds[0].min, bounds[1].min, bounds[2].min},
+            high{bounds[0].max, bounds[1].max, bounds[2].max};
         const Vec3<R> middle = (low + high) * R(0.5), half = (high - low) * R(0.5);
         const R size = length(middle);
         if (!(size > 0 && size < infinity<R>())) {
@@ -251,8 +261,8 @@ private:
         return slopes.least_along(slopes.middle) > R(0.4);
     }
 
-    /// Whether the surface's triangles in a cell would leave the tolerance, by how its normal turns on the way
-    /// from the middle to the corners: on a sphere of curvature k by about 0.87 k h, and the middle of a
+    /// Whether the surface's triangles in a cell would leave the tolerance, by how its normal turns on the
+    /// way from the middle to the corners: on a sphere of curvature k by about 0.87 k h, and the middle of a
     /// square of h by h is k h^2 / 4 inside.
     bool is_curved(const OctreeCell& cell) const {
         const Bounds<R> around = box(cell);
