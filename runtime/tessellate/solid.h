@@ -3,7 +3,10 @@
 #include "runtime/tessellate/solid_contour.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -67,7 +70,8 @@ private:
         R deviation = 0;
         for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
             const Triangle3& triangle = mesh.triangles[i];
-            const R away = distance(mesh, triangle, of_points);
+            const R away =
+                contour.is_at_jump(i) ? size_of(contour.cells_of(i)) : distance(mesh, triangle, of_points);
             deviation = std::max(deviation, away);
             if (away > tolerance_.distance || is_folded(mesh, triangle) ||
                 (away > tolerance_.distance * SolidOctree<S>::least_bulge && turns(mesh, triangle))) {
@@ -81,6 +85,15 @@ private:
         std::sort(coarse.begin(), coarse.end());
         coarse.erase(std::unique(coarse.begin(), coarse.end()), coarse.end());
         return deviation;
+    }
+
+    /// Within these cells there is a jump.
+    R size_of(const std::array<std::uint32_t, 4>& cells) const {
+        R size = 0;
+        for (const std::uint32_t cell : cells) {
+            size = std::max(size, octree_.edge_length(octree_.cells()[cell]));
+        }
+        return size;
     }
 
     /// Of the corners, the middle, and the middles of those edges that its neighbours do not look at.
@@ -97,10 +110,24 @@ private:
         }
         return std::max(most, distance(sum * (R(1) / 3)));
     }
-    /// To first order; 0 where a field has no gradient.
+    /// From a point of the surface nearby: found by steps to first order, since beyond a sharp edge one alone
+    /// is less than the distance. 0 where a field has no gradient.
     R distance(const Vec3<R>& p) const {
-        const LocalPlane<R> plane = field_.plane_at(field_.faces()[octree_.face_at(p)].surface, p);
-        return plane.usable ? std::abs(plane.distance) : R(0);
+        constexpr int most_steps = 8;
+        Vec3<R> q = p;
+        R away = 0;
+        for (int i = 0; i < most_steps; ++i) {
+            const LocalPlane<R> plane = field_.plane_at(field_.faces()[octree_.face_at(q)].surface, q);
+            if (!plane.usable) {
+                break;
+            }
+            q = q - plane.normal * plane.distance;
+            away = length(q - p);
+            if (std::abs(plane.distance) < (i == 0 ? R(0.125) : R(0.01)) * tolerance_.distance) {
+                break;
+            }
+        }
+        return away;
     }
 
     /// Seen from outside it shows its back, and is no sliver.

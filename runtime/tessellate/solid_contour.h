@@ -58,6 +58,9 @@ public:
         return edges_[origin_[triangle]].cells;
     }
 
+    /// Whether a triangle is where a field jumps, so that there is nothing to measure it by.
+    bool is_at_jump(std::size_t triangle) const { return edges_[origin_[triangle]].crossing.is_jump; }
+
 private:
     static constexpr std::uint32_t none = ~0U;
 

@@ -199,7 +199,7 @@ private:
             return false;
         }
         return cell.level < least_level || is_curved(cell) ||
-               (edge_length(cell) > tolerance_.distance && !is_one_sheet(cell));
+               (edge_length(cell) > tolerance_.distance / 2 && !is_one_sheet(cell));
     }
 
     /// Whether there is a direction in which the function grows everywhere in the cell, so that the surface

