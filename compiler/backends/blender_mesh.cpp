@@ -84,6 +84,18 @@ bool is_long(const ir::Mesh& mesh) {
     return std::max({mesh.positions.size(), mesh.normals.size(), mesh.indices.size()}) > longest_list;
 }
 
+void write_entry(Writer& out, const ir::Mesh& mesh, std::span<const std::uint32_t> slots) {
+    out.line("{}: dict(", python(mesh.name));
+    out.indent();
+    write_array(out, "points", mesh.positions);
+    write_array(out, "indices", mesh.indices);
+    write_array(out, "normals", mesh.normals);
+    write_array(out, "normal_indices", mesh.normal_indices);
+    write_array(out, "slots", slots);
+    out.dedent();
+    out.line("),");
+}
+
 } // namespace
 
 std::string base64(std::string_view bytes) {
@@ -103,6 +115,11 @@ std::string base64(std::string_view bytes) {
 }
 
 bool needs_packing(const ir::Scene& scene, const BlenderNeeds& needs) {
+    for (const auto& [path, solid] : needs.solids) {
+        if (is_long(solid.mesh)) {
+            return true;
+        }
+    }
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         if (needs.meshes[i] && is_long(scene.meshes[i])) {
             return true;
@@ -123,14 +140,11 @@ void write_unpacking(Writer& out) {
 }
 
 void write_mesh(Writer& out, const ir::Mesh& mesh) {
-    out.line("{}: dict(", python(mesh.name));
-    out.indent();
-    write_array(out, "points", mesh.positions);
-    write_array(out, "indices", mesh.indices);
-    write_array(out, "normals", mesh.normals);
-    write_array(out, "normal_indices", mesh.normal_indices);
-    out.dedent();
-    out.line("),");
+    write_entry(out, mesh, {});
+}
+
+void write_solid(Writer& out, const BlenderSolid& solid) {
+    write_entry(out, solid.mesh, solid.slots);
 }
 
 } // namespace scc::compiler

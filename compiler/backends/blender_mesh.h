@@ -18,6 +18,9 @@ void write_unpacking(Writer& out);
 /// An entry of the table of meshes.
 void write_mesh(Writer& out, const ir::Mesh& mesh);
 
+/// An entry of the table of solids.
+void write_solid(Writer& out, const BlenderSolid& solid);
+
 /// RFC 4648.
 std::string base64(std::string_view bytes);
 

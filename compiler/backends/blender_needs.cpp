@@ -90,7 +90,15 @@ MirrorView sees_itself(const Shape& shape, const Vec3<double>& eye) {
 class Mirrors {
 public:
     explicit Mirrors(const ir::Scene& scene) : scene_(scene) {
-        for_each_written(scene, [&](const ir::Object& object) { add(object); });
+        ir::for_each_object(scene, [&](const ir::Object& object) {
+            if (!std::holds_alternative<runtime::Csg<double>>(object.shape)) {
+                add(object);
+            }
+        });
+        for (const ir::Object& member : scene.members) {
+            add(member);
+            sees_itself_ |= reflects(member.sides.front) || reflects(member.sides.back); // or other members
+        }
     }
 
     int bounces() const {
@@ -151,7 +159,8 @@ public:
     }
 
     BlenderNeeds find() {
-        for_each_written(scene_, [&](const ir::Object& object) { add(object); });
+        needs_.solids = blender_solids(scene_);
+        ir::for_each_object(scene_, [&](const ir::Object& object) { add(object); });
         for (const ir::Light& light : scene_.lights) {
             want("light");
             std::visit([&](const auto& l) { add(l); }, light.light);
@@ -175,9 +184,8 @@ private:
     void want(std::string_view feature) { needs_.features.emplace(feature); }
 
     void add(const ir::Object& object) {
-        needs_.materials[object.sides.front] = needs_.materials[object.sides.back] = true;
-        if (object.sides.front != object.sides.back) {
-            want("two_sided");
+        if (!std::holds_alternative<runtime::Csg<double>>(object.shape)) {
+            add(object.sides);
         }
         std::visit([&](const auto& shape) { add(object, shape); }, object.shape);
     }
@@ -222,12 +230,33 @@ private:
         want("plane");
         want(has_pattern(object, scene_) ? "horizon" : "flat");
     }
-    void add(const ir::Object&, const runtime::Implicit<double>&) {} // dropped
+    void add(const runtime::Sides& sides) {
+        needs_.materials[sides.front] = needs_.materials[sides.back] = true;
+        if (sides.front != sides.back) {
+            want("two_sided");
+        }
+    }
+    void add(const ir::Object& object, const runtime::Implicit<double>&) { add_solid(object); }
+    void add_solid(const ir::Object& object) {
+        want("solid");
+        want("flat");
+        for (const BlenderFace& face : needs_.solids.at(object.path).faces) {
+            add(face.sides);
+            if (face.formula == BlenderFace::Formula::ball) {
+                want("ball");
+            } else if (face.formula == BlenderFace::Formula::round) {
+                want("round");
+            }
+            if (face.formula != BlenderFace::Formula::none) {
+                want("formula");
+            }
+        }
+    }
     void add(const ir::Object& object, const runtime::Triangle<double>&) {
         want("triangle");
         want(is_smooth(object.shape, scene_) ? "smooth" : "flat");
     }
-    void add(const ir::Object&, const runtime::Csg<double>&) {} // not written
+    void add(const ir::Object& object, const runtime::Csg<double>&) { add_solid(object); }
     void add(const ir::Object& object, const runtime::Mesh<double>& mesh) {
         want("mesh");
         want(is_smooth(object.shape, scene_) ? "smooth" : "flat");

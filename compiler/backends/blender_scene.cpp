@@ -23,7 +23,11 @@ public:
         write_lights();
         write_functions();
         write_materials();
+        if (needs_packing(scene_, needs_)) {
+            write_unpacking(out_);
+        }
         write_meshes();
+        write_solids();
         write_objects();
     }
 
@@ -151,9 +155,6 @@ private:
         if (!has("mesh")) {
             return;
         }
-        if (needs_packing(scene_, needs_)) {
-            write_unpacking(out_);
-        }
         out_.line("MESHES = {{");
         out_.indent();
         for (std::size_t i = 0; i < scene_.meshes.size(); ++i) {
@@ -165,22 +166,38 @@ private:
         out_.line("}}");
     }
 
+    void write_solids() {
+        if (!has("solid")) {
+            return;
+        }
+        out_.line("SOLIDS = {{");
+        out_.indent();
+        for (const auto& [path, solid] : needs_.solids) {
+            write_solid(out_, solid);
+        }
+        out_.dedent();
+        out_.line("}}");
+    }
+
+    std::string materials(const runtime::Sides& sides) const {
+        const std::string front = python(scene_.materials[sides.front].name);
+        if (sides.front == sides.back) {
+            return "material=" + front;
+        }
+        return fmt::format("front={}, back={}", front, python(scene_.materials[sides.back].name));
+    }
+
     void write_objects() {
         out_.line("OBJECTS = [");
         out_.indent();
-        for_each_written(scene_, [&](const ir::Object& object) {
-            std::string text = std::visit([&](const auto& shape) { return described(shape); }, object.shape);
-            if (text.empty()) {
-                return;
-            }
+        ir::for_each_object(scene_, [&](const ir::Object& object) {
+            const auto solid = needs_.solids.find(object.path);
+            std::string text =
+                solid != needs_.solids.end()
+                    ? "type=\"solid\""
+                    : std::visit([&](const auto& shape) { return described(shape); }, object.shape);
             text += fmt::format(", name={}", python(object.path));
-            const std::string front = python(scene_.materials[object.sides.front].name);
-            if (object.sides.front == object.sides.back) {
-                text += ", material=" + front;
-            } else {
-                const std::string back = python(scene_.materials[object.sides.back].name);
-                text += fmt::format(", front={}, back={}", front, back);
-            }
+            text += ", " + (solid != needs_.solids.end() ? faces(solid->second) : materials(object.sides));
             if (!(object.world_from_object == runtime::Affine<double>{})) {
                 text += fmt::format(", world={}", python(object.world_from_object));
             }
@@ -223,8 +240,32 @@ private:
         const std::string normals = t.smooth ? ", normals=" + triple(t.normals) : "";
         return fmt::format("type=\"triangle\", points={}{}", triple(t.points), normals);
     }
-    static std::string described(const runtime::Csg<double>&) { return ""; }      // not written
-    static std::string described(const runtime::Implicit<double>&) { return ""; } // dropped
+    static std::string described(const runtime::Csg<double>&) { return ""; }      // by its faces
+    static std::string described(const runtime::Implicit<double>&) { return ""; } // by its faces
+
+    std::string faces(const BlenderSolid& solid) const {
+        std::string list;
+        for (const BlenderFace& face : solid.faces) {
+            list += (list.empty() ? "" : ", ") + fmt::format("dict({})", described(face));
+        }
+        return fmt::format("faces=[{}]", list);
+    }
+    std::string described(const BlenderFace& face) const {
+        using Formula = BlenderFace::Formula;
+        std::string text = materials(face.sides);
+        if (!(face.member_from_world == runtime::Affine<double>{})) {
+            text += ", member=" + python(face.member_from_world);
+        }
+        if (face.formula == Formula::none) {
+            return "kind=\"face\", " + text;
+        }
+        text += fmt::format(", frame={}, radius=({}, {})", python(face.q_from_world), python(face.radius),
+                            python(face.slope));
+        if (face.inverted) {
+            text += ", inverted=True";
+        }
+        return fmt::format("kind=\"{}\", {}", face.formula == Formula::ball ? "ball" : "round", text);
+    }
     std::string described(const runtime::Mesh<double>& m) const {
         return fmt::format("type=\"mesh\", mesh={}", python(scene_.meshes[m.mesh].name));
     }
