@@ -118,7 +118,7 @@ private:
         std::string how = fmt::format("a closed mesh of {} triangles with exact normals; {}bound: distance of "
                                       "the mesh from the surface",
                                       solid.slots.size(),
-                                      has_formula(solid) ? "hits on round faces exact, computed in the "
+                                      has_formula(solid) ? "hits exact, computed in the "
                                                            "material; "
                                                          : "");
         if (solid.uncertain > 0) {

@@ -155,6 +155,7 @@ public:
     explicit NeedsOf(const ir::Scene& scene) : scene_(scene) {
         needs_.materials.resize(scene.materials.size());
         needs_.functions.resize(scene.functions.size());
+        needs_.fields.resize(scene.functions.size());
         needs_.meshes.resize(scene.meshes.size());
     }
 
@@ -188,6 +189,26 @@ private:
             add(object.sides);
         }
         std::visit([&](const auto& shape) { add(object, shape); }, object.shape);
+    }
+    void want_formula(const BlenderFace& face) {
+        using Formula = BlenderFace::Formula;
+        switch (face.formula) {
+        case Formula::none:
+            return;
+        case Formula::ball:
+            want("ball");
+            want("quadric");
+            break;
+        case Formula::round:
+            want("round");
+            want("quadric");
+            break;
+        case Formula::field:
+            want("field");
+            needs_.fields[static_cast<std::size_t>(face.field)] = true;
+            break;
+        }
+        want("formula");
     }
     void add(const ir::Object&, const runtime::Box<double>&) {
         want("box");
@@ -242,14 +263,7 @@ private:
         want("flat");
         for (const BlenderFace& face : needs_.solids.at(object.path).faces) {
             add(face.sides);
-            if (face.formula == BlenderFace::Formula::ball) {
-                want("ball");
-            } else if (face.formula == BlenderFace::Formula::round) {
-                want("round");
-            }
-            if (face.formula != BlenderFace::Formula::none) {
-                want("formula");
-            }
+            want_formula(face);
         }
     }
     void add(const ir::Object& object, const runtime::Triangle<double>&) {

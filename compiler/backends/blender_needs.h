@@ -14,6 +14,7 @@ struct BlenderNeeds {
     BlenderFeatures features;
     std::vector<bool> materials; ///< of each of the scene's materials, whether an object uses it
     std::vector<bool> functions;
+    std::vector<bool> fields; ///< of the functions, those that are a solid's formula
     std::vector<bool> meshes;
     BlenderSolids solids;
     int bounces = 0;    ///< mirror bounces that can be seen

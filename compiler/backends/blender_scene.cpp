@@ -12,6 +12,9 @@ namespace {
 using runtime::Rgb;
 using runtime::Varying;
 
+/// How far along a ray the true surface is looked for: seen at less than three degrees it may be farther.
+constexpr double steps_from_mesh = 20;
+
 class SceneWriter {
 public:
     SceneWriter(Writer& out, const ir::Scene& scene, const BlenderNeeds& needs)
@@ -22,6 +25,7 @@ public:
         write_camera();
         write_lights();
         write_functions();
+        write_fields();
         write_materials();
         if (needs_packing(scene_, needs_)) {
             write_unpacking(out_);
@@ -116,6 +120,27 @@ private:
         }
         out_.dedent();
         out_.line("}}");
+    }
+
+    void write_fields() {
+        if (!has("field")) {
+            return;
+        }
+        field_keys_.resize(scene_.functions.size());
+        Identifiers identifiers("field_");
+        std::string table;
+        for (std::size_t i = 0; i < scene_.functions.size(); ++i) {
+            if (needs_.fields[i]) {
+                const std::string& key = field_keys_[i] = identifiers.make(scene_.functions[i].name);
+                out_.blank();
+                out_.blank();
+                write_function(out_, *field_for_nodes(scene_.functions[i]), key);
+                table += fmt::format("{}\"{}\": {}", table.empty() ? "" : ", ", key, key);
+            }
+        }
+        out_.blank();
+        out_.blank();
+        out_.line("FIELDS = {{{}}}", table);
     }
 
     void write_materials() {
@@ -246,11 +271,11 @@ private:
     std::string faces(const BlenderSolid& solid) const {
         std::string list;
         for (const BlenderFace& face : solid.faces) {
-            list += (list.empty() ? "" : ", ") + fmt::format("dict({})", described(face));
+            list += (list.empty() ? "" : ", ") + fmt::format("dict({})", described(face, solid.deviation));
         }
         return fmt::format("faces=[{}]", list);
     }
-    std::string described(const BlenderFace& face) const {
+    std::string described(const BlenderFace& face, double deviation) const {
         using Formula = BlenderFace::Formula;
         std::string text = materials(face.sides);
         if (!(face.member_from_world == runtime::Affine<double>{})) {
@@ -259,12 +284,17 @@ private:
         if (face.formula == Formula::none) {
             return "kind=\"face\", " + text;
         }
-        text += fmt::format(", frame={}, radius=({}, {})", python(face.q_from_world), python(face.radius),
-                            python(face.slope));
+        text += ", frame=" + python(face.q_from_world);
         if (face.inverted) {
             text += ", inverted=True";
         }
-        return fmt::format("kind=\"{}\", {}", face.formula == Formula::ball ? "ball" : "round", text);
+        if (face.formula == Formula::field) {
+            return fmt::format("kind=\"field\", field=\"{}\", reach={}, {}",
+                               field_keys_[static_cast<std::size_t>(face.field)],
+                               python(steps_from_mesh * deviation), text);
+        }
+        return fmt::format("kind=\"{}\", radius=({}, {}), {}", face.formula == Formula::ball ? "ball" : "round",
+                           python(face.radius), python(face.slope), text);
     }
     std::string described(const runtime::Mesh<double>& m) const {
         return fmt::format("type=\"mesh\", mesh={}", python(scene_.meshes[m.mesh].name));
@@ -273,7 +303,8 @@ private:
     Writer& out_;
     const ir::Scene& scene_;
     const BlenderNeeds& needs_;
-    std::vector<std::string> keys_; ///< of each function: its name in Python
+    std::vector<std::string> keys_;       ///< of each function: its name in Python
+    std::vector<std::string> field_keys_; ///< of each field
 };
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "compiler/backends/function_program.h"
 #include "compiler/backends/tables.h"
 #include "compiler/bounds.h"
+#include "compiler/derivative.h"
 #include "compiler/ir/objects.h"
 #include "runtime/tessellate/solid.h"
 
@@ -25,6 +26,9 @@ using Formula = BlenderFace::Formula;
 
 /// Each formula is a material of its own.
 constexpr std::size_t most_formulas = 256;
+
+/// Cycles keeps what nodes calculate in few registers.
+constexpr std::size_t most_nodes = 300;
 
 /// What the tessellator reads of a scene.
 Scene solids_of(const ir::Scene& scene) {
@@ -64,7 +68,8 @@ struct Owner {
 
 class SolidMaker {
 public:
-    SolidMaker(const ir::Object& object, const Mesh& mesh) : object_(object), mesh_(mesh) {}
+    SolidMaker(const ir::Scene& scene, const ir::Object& object, const Mesh& mesh)
+        : scene_(scene), object_(object), mesh_(mesh) {}
 
     /// owner(face) gives the Owner.
     template <class OwnerOf>
@@ -102,18 +107,38 @@ private:
         using Kind = SmoothSurface<double>::Kind;
         const SmoothSurface<double>& surface = mesh_.surfaces[from.surface];
         BlenderFace face = no_formula(owner);
-        const bool has_formula =
-            surface.kind == Kind::ball || surface.kind == Kind::tube || surface.kind == Kind::cone;
-        if (!has_formula || formulas_ == most_formulas) {
+        face.formula = formula_of(surface);
+        if (face.formula == Formula::none || formulas_ == most_formulas) {
+            face.formula = Formula::none;
             return face;
         }
         ++formulas_;
-        face.formula = surface.kind == Kind::ball ? Formula::ball : Formula::round;
         face.inverted = from.sign < 0;
+        if (surface.kind == Kind::field) {
+            face.field = surface.field;
+            face.q_from_world = owner.own_from_world;
+            return face;
+        }
         face.radius = surface.radius;
         face.slope = surface.slope;
         face.q_from_world = compose(frame(surface), owner.own_from_world);
         return face;
+    }
+    Formula formula_of(const SmoothSurface<double>& surface) const {
+        using Kind = SmoothSurface<double>::Kind;
+        switch (surface.kind) {
+        case Kind::plane:
+            return Formula::none;
+        case Kind::ball:
+            return Formula::ball;
+        case Kind::tube:
+        case Kind::cone:
+            return Formula::round;
+        case Kind::field:
+            break;
+        }
+        return field_for_nodes(scene_.functions[static_cast<std::size_t>(surface.field)]) ? Formula::field
+                                                                                           : Formula::none;
     }
     static Affine<double> frame(const SmoothSurface<double>& s) {
         Affine<double> map;
@@ -143,6 +168,7 @@ private:
         return static_cast<std::uint32_t>(result_.faces.size() - 1);
     }
 
+    const ir::Scene& scene_;
     const ir::Object& object_;
     const Mesh& mesh_;
     BlenderSolid result_;
@@ -153,7 +179,7 @@ BlenderSolid make_solid(const ir::Scene& scene, const Scene& tables, const ir::O
                         const runtime::Csg<double>& csg) {
     const Mesh mesh =
         tessellate_solid(tables, csg.root, tolerance_for(scene, solid_bounds(scene, csg.root)));
-    return SolidMaker(object, mesh).make([&](const SolidFace<double>& face) {
+    return SolidMaker(scene, object, mesh).make([&](const SolidFace<double>& face) {
         Owner owner;
         visit_member(tables, face.member, [&](const auto& member) {
             owner.sides = member.primitive.tag.sides;
@@ -173,10 +199,18 @@ BlenderSolid make_solid(const ir::Scene& scene, const Scene& tables, const ir::O
     Mesh mesh = tessellate_implicit(tables, bare, tolerance_in_object(tolerance, place));
     mesh.deviation *= runtime::stretch_bounds(place).most;
     const Owner owner{object.sides, inverse(place)};
-    return SolidMaker(object, mesh).make([&](const SolidFace<double>&) { return owner; });
+    return SolidMaker(scene, object, mesh).make([&](const SolidFace<double>&) { return owner; });
 }
 
 } // namespace
+
+std::optional<ir::Function> field_for_nodes(const ir::Function& field) {
+    const bool is_random = std::any_of(field.nodes.begin(), field.nodes.end(), [](const ir::Node& node) {
+        return node.kind == ir::Node::Kind::apply && node.op == ir::Op::random;
+    });
+    std::optional<ir::Function> result = is_random ? std::nullopt : with_gradient(field);
+    return result && result->nodes.size() <= most_nodes ? result : std::nullopt;
+}
 
 BlenderSolids blender_solids(const ir::Scene& scene) {
     BlenderSolids solids;

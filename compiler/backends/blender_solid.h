@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,13 +18,15 @@ struct BlenderFace {
     enum class Formula : std::uint8_t {
         none, ///< the mesh itself: what is flat, and what Math nodes cannot calculate
         ball, ///< |q| = radius
-        round ///< about the z axis with a radius of radius + slope z
+        round, ///< about the z axis with a radius of radius + slope z
+        field  ///< an author's, where Math nodes can calculate it and its gradient
     };
     Formula formula = Formula::none;
     runtime::Sides sides;
     bool inverted = false;                     ///< the formula grows into the solid
     runtime::Affine<double> q_from_world;      ///< the formula's coordinates
     double radius = 0, slope = 0;
+    std::int32_t field = 0; ///< index into the scene's functions
     runtime::Affine<double> member_from_world; ///< those that the member was written in
 };
 
@@ -35,6 +38,9 @@ struct BlenderSolid {
     double deviation = 0;      ///< of the mesh from the surface, in world units
     std::size_t uncertain = 0; ///< SolidMesh::uncertain
 };
+
+/// The field with its gradient, if Math nodes can calculate both.
+std::optional<ir::Function> field_for_nodes(const ir::Function& field);
 
 /// By the objects' paths.
 using BlenderSolids = std::map<std::string, BlenderSolid>;

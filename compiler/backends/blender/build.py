@@ -151,7 +151,7 @@ def plane_kinds(o):
 
 
 #: end
-SINGLE = ("plane", "face", "ball", "round")  # kinds with numbers of one object in their nodes
+SINGLE = ("plane", "face", "ball", "round", "field")  # kinds with numbers of one object in their nodes
 HITS = {
     #: solid
     "face": face_hit,
@@ -161,6 +161,9 @@ HITS = {
     #: end
     #: round
     "round": round_hit,
+    #: end
+    #: field
+    "field": field_hit,
     #: end
     #: flat
     "flat": flat_hit,

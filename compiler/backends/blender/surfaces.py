@@ -32,6 +32,15 @@ def normal_to_world(g, normal):
 
 
 #: end
+#: quadric curved
+def nearest_root(g, a, b, c):
+    """Of a t^2 + 2 b t + c = 0, the one nearest to 0."""
+    root = g.f("SQRT", g.f("MAXIMUM", g.f("SUBTRACT", g.f("MULTIPLY", b, b), g.f("MULTIPLY", a, c)), 0.0))
+    sign = g.f("MULTIPLY_ADD", g.f("GREATER_THAN", b, 0.0), 2.0, -1.0)
+    return g.f("MULTIPLY", g.f("DIVIDE", c, g.f("MULTIPLY_ADD", sign, root, b)), -1.0)
+
+
+#: end
 #: curved
 def quadric_hit(name, coefficients, gradient):
     """Replaces the hit on the tessellated mesh by the root of a t^2 + 2 b t + c = 0 that is nearest to it.
@@ -41,10 +50,7 @@ def quadric_hit(name, coefficients, gradient):
     geometry = g.add("ShaderNodeNewGeometry").outputs
     viewer = geometry["Incoming"]
     start, direction = g.add("ShaderNodeTexCoord").outputs["Object"], g.to_object(g.v("SCALE", viewer, -1.0))
-    a, b, c = coefficients(g, start, direction)
-    root = g.f("SQRT", g.f("MAXIMUM", g.f("SUBTRACT", g.f("MULTIPLY", b, b), g.f("MULTIPLY", a, c)), 0.0))
-    sign = g.f("MULTIPLY_ADD", g.f("GREATER_THAN", b, 0.0), 2.0, -1.0)
-    t = g.f("MULTIPLY", g.f("DIVIDE", c, g.f("MULTIPLY_ADD", sign, root, b)), -1.0)
+    t = nearest_root(g, *coefficients(g, start, direction))
     unit = g.v("ADD", start, g.v("SCALE", direction, t))
     outward = normal_to_world(g, gradient(g, unit))
     g.put(out["Position"], g.v("SUBTRACT", geometry["Position"], g.v("SCALE", viewer, t)))
@@ -89,19 +95,15 @@ def face_hit(f):
 
 #: end
 #: formula
-def formula_hit(f, coefficients, gradient):
-    """Replaces the hit on a solid's mesh by the root of a t^2 + 2 b t + c = 0 that is nearest to it.
-
-    The formula has coordinates of its own, `frame` of the world; t is a length in the world."""
+def formula_hit(f, along, gradient):
+    """Replaces the hit on a solid's mesh by one on its formula: `along(g, start, way)` gives the place on the ray, a
+    length in the world. The formula has coordinates of its own, `frame` of the world."""
     g, _, out = new_group("hit on " + f["name"], {}, HIT)
     geometry = g.add("ShaderNodeNewGeometry").outputs
     viewer, seen, rows = geometry["Incoming"], geometry["Position"], f["frame"]
     way = g.join(*(g.v("DOT_PRODUCT", viewer, tuple(-x for x in row[:3])) for row in rows))
     start = by_rows(g, rows, seen)
-    a, b, c = coefficients(g, start, way)
-    root = g.f("SQRT", g.f("MAXIMUM", g.f("SUBTRACT", g.f("MULTIPLY", b, b), g.f("MULTIPLY", a, c)), 0.0))
-    sign = g.f("MULTIPLY_ADD", g.f("GREATER_THAN", b, 0.0), 2.0, -1.0)
-    t = g.f("MULTIPLY", g.f("DIVIDE", c, g.f("MULTIPLY_ADD", sign, root, b)), -1.0)
+    t = along(g, start, way)
     normal = gradient(g, g.v("ADD", start, g.v("SCALE", way, t)))
     if f.get("inverted"):
         normal = g.v("SCALE", normal, -1.0)
@@ -117,6 +119,31 @@ def formula_hit(f, coefficients, gradient):
 
 
 #: end
+#: field
+@functools.lru_cache(maxsize=None)
+def field_group(name):
+    g, i, out = new_group(name, dict(p="Vector"), dict(Value="Float", Gradient="Vector"))
+    value, *slopes = FIELDS[name](g, g.split(i["p"]))
+    g.put(out["Value"], g.f("ADD", value, 0.0))
+    g.put(out["Gradient"], g.join(*slopes))
+    return g.tree
+
+
+def field_hit(f):
+    """By Newton's steps from the mesh, no farther than `reach`."""
+    def along(g, start, way):
+        t, p = 0.0, start
+        for _ in range(3):
+            field = g.group(field_group(f["field"]), p=p)
+            step = g.f("DIVIDE", field["Value"], g.v("DOT_PRODUCT", field["Gradient"], way))
+            t = g.f("MAXIMUM", g.f("MINIMUM", g.f("SUBTRACT", t, step), f["reach"]), -f["reach"])
+            p = g.v("ADD", start, g.v("SCALE", way, t))
+        return t
+
+    return formula_hit(f, along, lambda g, p: g.group(field_group(f["field"]), p=p)["Gradient"])
+
+
+#: end
 #: ball
 def ball_hit(f):
     radius = f["radius"][0]
@@ -125,7 +152,7 @@ def ball_hit(f):
         return (g.v("DOT_PRODUCT", d, d), g.v("DOT_PRODUCT", p, d),
                 g.f("SUBTRACT", g.v("DOT_PRODUCT", p, p), radius * radius))
 
-    return formula_hit(f, coefficients, lambda g, p: p)
+    return formula_hit(f, lambda g, p, d: nearest_root(g, *coefficients(g, p, d)), lambda g, p: p)
 
 
 #: end
@@ -150,7 +177,7 @@ def round_hit(f):
     def gradient(g, p):
         return g.v("SUBTRACT", across(g, p), g.join(0.0, 0.0, g.f("MULTIPLY", radius(g, p), slope)))
 
-    return formula_hit(f, coefficients, gradient)
+    return formula_hit(f, lambda g, p, d: nearest_root(g, *coefficients(g, p, d)), gradient)
 
 
 #: end
