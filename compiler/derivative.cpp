@@ -27,7 +27,8 @@ public:
             add(function_.nodes[i]);
         }
         const Derived& result = nodes_[function_.results[0]];
-        ir::Function made = builder_.finish({result.value, result.slopes[0], result.slopes[1], result.slopes[2]});
+        ir::Function made =
+            builder_.finish({result.value, result.slopes[0], result.slopes[1], result.slopes[2]});
         made.name = function_.name;
         return made;
     }
@@ -58,12 +59,13 @@ private:
     }
 
     Derived applied(const ir::Node& node) {
-        const Derived a = nodes_[node.operands[0]], b = nodes_[node.operands[1]], c = nodes_[node.operands[2]];
+        const Derived a = nodes_[node.operands[0]], b = nodes_[node.operands[1]],
+                      c = nodes_[node.operands[2]];
         Derived result{value_of(node, a.value, b.value, c.value)};
         for (std::size_t i = 0; i < 3; ++i) {
             const int arity = row(node.op).arity;
             const Scalar none{}, da = a.slopes[i], db = arity > 1 ? b.slopes[i] : none,
-                         dc = arity > 2 ? c.slopes[i] : none;
+                                 dc = arity > 2 ? c.slopes[i] : none;
             if (!is_zero(da) || !is_zero(db) || !is_zero(dc)) {
                 result.slopes[i] = slope(node.op, result.value, a.value, b.value, da, db, dc);
             }
@@ -106,8 +108,8 @@ private:
     Scalar one(ScalarOp op, const Scalar& a) { return math_.apply(op, a); }
 
     /// By one coordinate; `value` is the operation's own.
-    Scalar slope(Op op, const Scalar& value, const Scalar& a, const Scalar& b, const Scalar& da, const Scalar& db,
-                 const Scalar& dc) {
+    Scalar slope(Op op, const Scalar& value, const Scalar& a, const Scalar& b, const Scalar& da,
+                 const Scalar& db, const Scalar& dc) {
         const Scalar unit{1};
         switch (op) {
         case Op::neg:
@@ -172,9 +174,10 @@ private:
 } // namespace
 
 std::optional<ir::Function> with_gradient(const ir::Function& function) {
-    const bool has_noise = std::any_of(function.nodes.begin(), function.nodes.end(), [](const ir::Node& node) {
-        return node.kind == ir::Node::Kind::apply && node.op == Op::noise;
-    });
+    const bool has_noise =
+        std::any_of(function.nodes.begin(), function.nodes.end(), [](const ir::Node& node) {
+            return node.kind == ir::Node::Kind::apply && node.op == Op::noise;
+        });
     return has_noise ? std::nullopt : std::optional(Differentiator(function).run());
 }
 

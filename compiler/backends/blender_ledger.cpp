@@ -112,15 +112,15 @@ private:
 
     void record(const ir::Object& object, const BlenderSolid& solid) {
         const auto* csg = std::get_if<runtime::Csg<double>>(&object.shape);
-        const std::string word = csg != nullptr
-                                     ? std::string(ir::csg_word(scene_.csg_nodes[csg->root].op))
-                                     : std::string(runtime::Implicit<double>::name);
-        std::string how = fmt::format("a closed mesh of {} triangles with exact normals; {}bound: distance of "
-                                      "the mesh from the surface",
-                                      solid.slots.size(),
-                                      has_formula(solid) ? "hits exact, computed in the "
-                                                           "material; "
-                                                         : "");
+        const std::string word = csg != nullptr ? std::string(ir::csg_word(scene_.csg_nodes[csg->root].op))
+                                                : std::string(runtime::Implicit<double>::name);
+        std::string how =
+            fmt::format("a closed mesh of {} triangles with exact normals; {}bound: distance of "
+                        "the mesh from the surface",
+                        solid.slots.size(),
+                        has_formula(solid) ? "hits exact, computed in the "
+                                             "material; "
+                                           : "");
         if (solid.uncertain > 0) {
             how += fmt::format("; {} places too small to tell whether there is more", solid.uncertain);
         }

@@ -293,8 +293,9 @@ private:
                                field_keys_[static_cast<std::size_t>(face.field)],
                                python(steps_from_mesh * deviation), text);
         }
-        return fmt::format("kind=\"{}\", radius=({}, {}), {}", face.formula == Formula::ball ? "ball" : "round",
-                           python(face.radius), python(face.slope), text);
+        return fmt::format("kind=\"{}\", radius=({}, {}), {}",
+                           face.formula == Formula::ball ? "ball" : "round", python(face.radius),
+                           python(face.slope), text);
     }
     std::string described(const runtime::Mesh<double>& m) const {
         return fmt::format("type=\"mesh\", mesh={}", python(scene_.meshes[m.mesh].name));

@@ -41,16 +41,17 @@ Scene solids_of(const ir::Scene& scene) {
     return result;
 }
 
-/// To a tenth of a pixel of the scene's own picture, where it is nearest to the camera.
+/// To a fifth of a pixel of the scene's own picture, where it is nearest to the camera: that is what outlines
+/// and shadows are off by, since the materials find the true surface.
 runtime::Tolerance<double> tolerance_for(const ir::Scene& scene, const Bounds<double>& box) {
-    constexpr double share_of_pixel = 0.1;
+    constexpr double share_of_pixel = 0.2;
     const double size = length(box.max - box.min);
     double pixel = 2 * scene.camera.half_height / scene.settings.height;
     if (scene.camera.projection == runtime::Projection::perspective) {
         const Vec3<double> nearest = minimum(maximum(scene.camera.eye, box.min), box.max);
         pixel *= std::max(length(nearest - scene.camera.eye), size / 20);
     }
-    return {std::clamp(pixel * share_of_pixel, size * 2e-5, size / 100), 0.35};
+    return {std::clamp(pixel * share_of_pixel, size * 2e-5, size / 100), 0.5};
 }
 
 void append(std::vector<float>& numbers, const std::vector<Vec3<double>>& vectors) {
@@ -138,7 +139,7 @@ private:
             break;
         }
         return field_for_nodes(scene_.functions[static_cast<std::size_t>(surface.field)]) ? Formula::field
-                                                                                           : Formula::none;
+                                                                                          : Formula::none;
     }
     static Affine<double> frame(const SmoothSurface<double>& s) {
         Affine<double> map;
@@ -177,8 +178,7 @@ private:
 
 BlenderSolid make_solid(const ir::Scene& scene, const Scene& tables, const ir::Object& object,
                         const runtime::Csg<double>& csg) {
-    const Mesh mesh =
-        tessellate_solid(tables, csg.root, tolerance_for(scene, solid_bounds(scene, csg.root)));
+    const Mesh mesh = tessellate_solid(tables, csg.root, tolerance_for(scene, solid_bounds(scene, csg.root)));
     return SolidMaker(scene, object, mesh).make([&](const SolidFace<double>& face) {
         Owner owner;
         visit_member(tables, face.member, [&](const auto& member) {

@@ -16,17 +16,17 @@ namespace scc::compiler {
 /// surface behind the mesh.
 struct BlenderFace {
     enum class Formula : std::uint8_t {
-        none, ///< the mesh itself: what is flat, and what Math nodes cannot calculate
-        ball, ///< |q| = radius
+        none,  ///< the mesh itself: what is flat, and what Math nodes cannot calculate
+        ball,  ///< |q| = radius
         round, ///< about the z axis with a radius of radius + slope z
         field  ///< an author's, where Math nodes can calculate it and its gradient
     };
     Formula formula = Formula::none;
     runtime::Sides sides;
-    bool inverted = false;                     ///< the formula grows into the solid
-    runtime::Affine<double> q_from_world;      ///< the formula's coordinates
+    bool inverted = false;                ///< the formula grows into the solid
+    runtime::Affine<double> q_from_world; ///< the formula's coordinates
     double radius = 0, slope = 0;
-    std::int32_t field = 0; ///< index into the scene's functions
+    std::int32_t field = 0;                    ///< index into the scene's functions
     runtime::Affine<double> member_from_world; ///< those that the member was written in
 };
 

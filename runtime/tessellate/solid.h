@@ -43,7 +43,7 @@ public:
         constexpr int most_rounds = 12;
         SolidMesh<R> result;
         for (int round = 0; round < most_rounds; ++round) {
-            SolidContour<S> contour(field_, octree_, crossings_);
+            SolidContour<S> contour(field_, octree_, memory_);
             std::vector<std::uint32_t> coarse;
             result.deviation = measure(contour, coarse);
             result.mesh = contour.take_mesh();
@@ -61,7 +61,7 @@ public:
 private:
     /// The largest distance of a sample from the surface; collects the cells of triangles that are too far
     /// away, or too large for the way the normal turns, and can be divided.
-    R measure(const SolidContour<S>& contour, std::vector<std::uint32_t>& coarse) const {
+    R measure(const SolidContour<S>& contour, std::vector<std::uint32_t>& coarse) {
         const Triangles<R>& mesh = contour.mesh();
         std::vector<R> of_points;
         for (const Vec3<R>& p : mesh.positions) {
@@ -73,7 +73,7 @@ private:
             const R away =
                 contour.is_at_jump(i) ? size_of(contour.cells_of(i)) : distance(mesh, triangle, of_points);
             deviation = std::max(deviation, away);
-            if (away > tolerance_.distance || is_folded(mesh, triangle) ||
+            if (away > tolerance_.distance || is_folded(contour, i) ||
                 (away > tolerance_.distance * SolidOctree<S>::least_bulge && turns(mesh, triangle))) {
                 for (const std::uint32_t cell : contour.cells_of(i)) {
                     if (octree_.is_divisible(octree_.cells()[cell])) {
@@ -97,7 +97,7 @@ private:
     }
 
     /// Of the corners, the middle, and the middles of those edges that its neighbours do not look at.
-    R distance(const Triangles<R>& mesh, const Triangle3& t, const std::vector<R>& of_points) const {
+    R distance(const Triangles<R>& mesh, const Triangle3& t, const std::vector<R>& of_points) {
         R most = 0;
         Vec3<R> sum{};
         for (std::size_t i = 0; i < 3; ++i) {
@@ -112,7 +112,14 @@ private:
     }
     /// From a point of the surface nearby: found by steps to first order, since beyond a sharp edge one alone
     /// is less than the distance. 0 where a field has no gradient.
-    R distance(const Vec3<R>& p) const {
+    R distance(const Vec3<R>& p) {
+        const auto [found, is_new] = memory_.from_solid.try_emplace({p, 0}, R(0));
+        if (is_new) {
+            found->second = find_distance(p);
+        }
+        return found->second;
+    }
+    R find_distance(const Vec3<R>& p) const {
         constexpr int most_steps = 8;
         Vec3<R> q = p;
         R away = 0;
@@ -130,15 +137,17 @@ private:
         return away;
     }
 
-    /// Seen from outside it shows its back, and is no sliver.
-    bool is_folded(const Triangles<R>& mesh, const Triangle3& t) const {
-        const Vec3<R>&a = mesh.positions[t.positions[0]], &b = mesh.positions[t.positions[1]],
-              &c = mesh.positions[t.positions[2]];
-        const Vec3<R> flat = cross(b - a, c - a), middle = (a + b + c) * (R(1) / 3);
-        const SolidFace<R>& face = field_.faces()[t.part];
-        const LocalPlane<R> plane = field_.plane_at(face.surface, middle);
+    /// Turned over, and no sliver.
+    bool is_folded(const SolidContour<S>& contour, std::size_t i) const {
+        if (!contour.is_turned_over(i)) {
+            return false;
+        }
+        const Triangles<R>& mesh = contour.mesh();
+        const auto& corners = mesh.triangles[i].positions;
+        const Vec3<R>&a = mesh.positions[corners[0]], &b = mesh.positions[corners[1]],
+              &c = mesh.positions[corners[2]];
         const R longest = std::max({length(b - a), length(c - b), length(a - c)});
-        return dot(flat, plane.normal) * face.sign < 0 && length(flat) > tolerance_.distance * longest;
+        return length(cross(b - a, c - a)) > tolerance_.distance * longest;
     }
 
     bool turns(const Triangles<R>& mesh, const Triangle3& t) const {
@@ -151,7 +160,7 @@ private:
     const SolidField<S>& field_;
     Tolerance<R> tolerance_;
     SolidOctree<S> octree_;
-    typename SolidContour<S>::Crossings crossings_;
+    SolidMemory<R> memory_;
 };
 
 template <class S>

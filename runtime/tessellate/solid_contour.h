@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <numeric>
 #include <optional>
 #include <tuple>
@@ -35,16 +36,46 @@ struct EdgeCrossing {
     bool is_jump = false; ///< the field has no zero there, or no gradient
 };
 
+/// A point together with what is asked of it.
+template <class R>
+struct AskedPoint {
+    Vec3<R> point{};
+    std::uint32_t what = 0;
+
+    friend bool operator==(const AskedPoint&, const AskedPoint&) = default;
+};
+template <class R>
+struct AskedPointHash {
+    std::size_t operator()(const AskedPoint<R>& asked) const {
+        std::size_t hash = asked.what;
+        for (const R x : {asked.point.x, asked.point.y, asked.point.z}) {
+            hash = (hash ^ std::hash<R>()(x)) * 0x9e3779b97f4a7c15U;
+            hash ^= hash >> 29;
+        }
+        return hash;
+    }
+};
+
+/// What the octree's refinement leaves as it is, so that it is not calculated again.
+template <class R>
+struct SolidMemory {
+    template <class T>
+    using ByPoint = std::unordered_map<AskedPoint<R>, T, AskedPointHash<R>>;
+
+    std::unordered_map<std::uint64_t, EdgeCrossing<R>> crossings; ///< by edge
+    ByPoint<Vec3<R>> placed; ///< by cell and the place that the search began at
+    ByPoint<R> from_surface; ///< by surface
+    ByPoint<R> from_solid;
+};
+
 template <class S>
 class SolidContour {
 public:
     using R = typename S::Real;
     using Crossing = EdgeCrossing<R>;
-    /// By edge; kept from one octree to a finer one.
-    using Crossings = std::unordered_map<std::uint64_t, Crossing>;
 
-    SolidContour(const SolidField<S>& field, const SolidOctree<S>& octree, Crossings& crossings)
-        : field_(field), octree_(octree), crossings_(crossings) {
+    SolidContour(const SolidField<S>& field, const SolidOctree<S>& octree, SolidMemory<R>& memory)
+        : field_(field), octree_(octree), memory_(memory) {
         find_edges();
         join();
         place_points();
@@ -58,6 +89,13 @@ public:
         return edges_[origin_[triangle]].cells;
     }
 
+    /// Whether it shows its back outside, by where its edge crosses the surface.
+    bool is_turned_over(std::size_t triangle) const {
+        const auto& [a, b, c] = mesh_.triangles[triangle].positions;
+        const Vec3<R>& p = mesh_.positions[a];
+        return dot(cross(mesh_.positions[b] - p, mesh_.positions[c] - p),
+                   edges_[origin_[triangle]].crossing.normal) < 0;
+    }
     /// Whether a triangle is where a field jumps, so that there is nothing to measure it by.
     bool is_at_jump(std::size_t triangle) const { return edges_[origin_[triangle]].crossing.is_jump; }
 
@@ -136,7 +174,7 @@ private:
         const std::uint64_t key =
             ((std::uint64_t{edge.low[0]} << 34 | std::uint64_t{edge.low[1]} << 17) | edge.low[2]) |
             std::uint64_t{edge.axis} << 51 | std::uint64_t{cell.level} << 53;
-        const auto [found, is_new] = crossings_.try_emplace(key);
+        const auto [found, is_new] = memory_.crossings.try_emplace(key);
         if (is_new) {
             found->second = find_crossing(edge, cell);
         }
@@ -364,13 +402,17 @@ private:
         for (const Vec3<R>& p : patch.turns) {
             start = start + p * (1 / R(patch.turns.size()));
         }
-        const bool is_bent = turn < R(0.5);
-        if (surfaces.size() > 1 || !is_bent) {
-            if (const auto found = on_solid(surfaces, start, *patch.cell)) {
-                return *found;
-            }
+        const auto cell = static_cast<std::uint32_t>(patch.cell - octree_.cells().data());
+        const auto [found, is_new] = memory_.placed.try_emplace({start, cell}, start);
+        if (is_new) {
+            const bool is_bent = turn < R(0.5);
+            const auto on_all =
+                surfaces.size() > 1 || !is_bent ? on_solid(surfaces, start, *patch.cell) : std::nullopt;
+            found->second = on_all                           ? *on_all
+                            : surfaces.size() > 1 || is_bent ? on_planes(crossings, start, *patch.cell)
+                                                             : mean;
         }
-        return surfaces.size() > 1 || is_bent ? on_planes(crossings, start, *patch.cell) : mean;
+        return found->second;
     }
 
     /// On these surfaces, and where they leave the solid there, on the one that cuts them off, too.
@@ -526,13 +568,17 @@ private:
         }
     };
     Diagonal diagonal(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d,
-                      const Crossing& crossing) const {
+                      const Crossing& crossing) {
         const auto cosine = [&](std::uint32_t i, std::uint32_t k, std::uint32_t l) {
             return cosine_to(mesh_.positions[i], mesh_.positions[k], mesh_.positions[l], crossing.normal);
         };
         const Vec3<R> middle = (mesh_.positions[a] + mesh_.positions[c]) * R(0.5);
-        const LocalPlane<R> plane = field_.plane_at(field_.faces()[crossing.face].surface, middle);
-        return {std::min(cosine(a, b, c), cosine(a, c, d)), plane.usable ? std::abs(plane.distance) : R(0)};
+        const std::uint32_t surface = surface_of(crossing);
+        const auto [found, is_new] = memory_.from_surface.try_emplace({middle, surface}, R(0));
+        if (is_new) {
+            found->second = std::abs(field_.plane_at(surface, middle).distance);
+        }
+        return {std::min(cosine(a, b, c), cosine(a, c, d)), found->second};
     }
     R facing(std::uint32_t a, std::uint32_t b, const Crossing& crossing) const {
         return cosine_to(crossing.point, mesh_.positions[a], mesh_.positions[b], crossing.normal);
@@ -588,7 +634,7 @@ private:
 
     const SolidField<S>& field_;
     const SolidOctree<S>& octree_;
-    Crossings& crossings_;
+    SolidMemory<R>& memory_;
     std::vector<Edge> edges_;
     std::vector<std::uint32_t> parents_;                 ///< of each edge's corner in each of its four cells
     std::vector<std::uint32_t> arcs_;                    ///< of each edge, towards the next of its cells

