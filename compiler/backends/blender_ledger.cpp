@@ -79,8 +79,12 @@ public:
 
 private:
     void add(Account account, std::string feature, const std::string& subject, lang::Span span) {
-        ledger_.push_back(
-            {account.fidelity, std::move(feature), subject, span, std::move(account.how), account.bound});
+        ledger_.push_back({.fidelity = account.fidelity,
+                           .feature = std::move(feature),
+                           .subject = subject,
+                           .span = span,
+                           .how = std::move(account.how),
+                           .bound = account.bound});
     }
 
     bool reflects(std::uint32_t material) const {
@@ -124,7 +128,10 @@ private:
         if (solid.uncertain > 0) {
             how += fmt::format("; {} places too small to tell whether there is more", solid.uncertain);
         }
-        add({Fidelity::approximated, std::move(how), solid.deviation}, word, object.path, object.span);
+        const double rounding = 6e-8 * needs_.extent; // of positions
+        add({Fidelity::approximated, std::move(how), std::max(solid.deviation, rounding)}, word, object.path,
+            object.span);
+        ledger_.back().is_refined_mesh = true;
         const bool is_placed = !(object.world_from_object == runtime::Affine<double>{});
         if (is_placed) {
             record_transform(object);

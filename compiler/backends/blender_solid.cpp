@@ -45,13 +45,15 @@ Scene solids_of(const ir::Scene& scene) {
 /// and shadows are off by, since the materials find the true surface.
 runtime::Tolerance<double> tolerance_for(const ir::Scene& scene, const Bounds<double>& box) {
     constexpr double share_of_pixel = 0.2;
+    constexpr double finest = 4e-4,
+                     coarsest = 1e-2; // of the solid's size: hundreds of thousands of triangles, and few
     const double size = length(box.max - box.min);
     double pixel = 2 * scene.camera.half_height / scene.settings.height;
     if (scene.camera.projection == runtime::Projection::perspective) {
         const Vec3<double> nearest = minimum(maximum(scene.camera.eye, box.min), box.max);
         pixel *= std::max(length(nearest - scene.camera.eye), size / 20);
     }
-    return {std::clamp(pixel * share_of_pixel, size * 2e-5, size / 100), 0.5};
+    return {std::clamp(pixel * share_of_pixel, size * finest, size * coarsest), 0.5};
 }
 
 void append(std::vector<float>& numbers, const std::vector<Vec3<double>>& vectors) {

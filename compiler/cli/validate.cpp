@@ -74,9 +74,14 @@ void draw_reference(Subject& subject) {
 
 // ---- the other pictures --------------------------------------------------------------------------------
 
-void judge(RendererReport& result, const Subject& subject, double exposure) {
+void judge(RendererReport& result, const Subject& subject, double exposure,
+           const compiler::Ledger& ledger = {}) {
     const runtime::RenderSettings& s = subject.request.settings;
     result.budget = validation::budget_for(result.renderer, s.width, s.height, s.samples_per_axis, exposure);
+    if (std::any_of(ledger.begin(), ledger.end(), [](const auto& entry) { return entry.is_refined_mesh; })) {
+        result.budget =
+            validation::with_refined_meshes(*result.budget, s.width, s.height, s.samples_per_axis);
+    }
     validation::CompareOptions options;
     options.thresholds = validation::thresholds_for(*result.budget);
     result.metrics = validation::compare(subject.report.reference, result.image, options);
@@ -128,7 +133,9 @@ RendererReport run_exported(const Subject& subject, const std::string& name, int
     const compiler::Exporter& exporter = *compiler::find_exporter(name);
     compiler::Ledger ledger;
     const std::filesystem::path file = subject.folder.path() / ("scene" + std::string(exporter.extension));
-    host::replace_file(file.string(), exporter.emit(subject.loaded.scene, ledger));
+    compiler::ir::Scene scene = subject.loaded.scene;
+    scene.settings = subject.request.settings; // meshes are refined for the picture's size
+    host::replace_file(file.string(), exporter.emit(scene, ledger));
     result.ledger = ledger_rows(ledger, subject.loaded.sources);
 
     validation::RenderJob job;
@@ -156,7 +163,7 @@ RendererReport run_exported(const Subject& subject, const std::string& name, int
         return result;
     }
     result.image = std::move(run.image);
-    judge(result, subject, run.exposure);
+    judge(result, subject, run.exposure, ledger);
     return result;
 }
 

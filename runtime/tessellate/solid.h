@@ -50,7 +50,7 @@ public:
             if (coarse.empty() || round + 1 == most_rounds) {
                 break;
             }
-            octree_.divide(coarse);
+            octree_.divide(coarse, round < 2 ? 1 : 2); // what is left are few sharp places
         }
         result.faces = field_.faces();
         result.surfaces = field_.surfaces();

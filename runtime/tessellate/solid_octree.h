@@ -100,15 +100,18 @@ public:
     bool is_divisible(const OctreeCell& cell) const {
         return !cell.is_split && cell.level < finest_ && cells_.size() + 8 <= most_cells_;
     }
-    /// Divides these, and what comes of them as far as the surface asks.
-    void divide(const std::vector<std::uint32_t>& cells) {
-        std::vector<std::uint32_t> made;
-        for (const std::uint32_t index : cells) {
-            if (is_divisible(cells_[index])) {
-                split(index, made);
+    /// Divides these so many times, and what comes of them as far as the surface asks.
+    void divide(std::vector<std::uint32_t> cells, int times) {
+        for (int i = 0; i < times; ++i) {
+            std::vector<std::uint32_t> made;
+            for (const std::uint32_t index : cells) {
+                if (is_divisible(cells_[index]) && (i == 0 || cells_[index].side == Side::open)) {
+                    split(index, made);
+                }
             }
+            cells = std::move(made);
         }
-        refine(std::move(made));
+        refine(std::move(cells));
     }
 
     /// Cells in which there may be more of the surface than their corners show.

@@ -19,13 +19,12 @@ protected:
     std::string against() const { return GetParam().against; }
 };
 
-// Exports to Blender drop implicit surfaces and solids made of others.
 INSTANTIATE_TEST_SUITE_P(
     All, Examples,
     testing::Values(Example{"lecture", "pov,blender,native"}, Example{"mesh", "pov,blender,native"},
                     Example{"transforms", "pov,blender,native"}, Example{"lights", "pov,blender,native"},
-                    Example{"mirrors", "pov,blender,native"}, Example{"csg", "pov,native"},
-                    Example{"implicit", "pov,native"}, Example{"lattice", "pov,native"}),
+                    Example{"mirrors", "pov,blender,native"}, Example{"csg", "pov,blender,native"},
+                    Example{"implicit", "pov,blender,native"}, Example{"lattice", "pov,blender,native"}),
     [](const auto& row) { return std::string(row.param.name); });
 
 TEST_P(Examples, CheckWithoutAWarning) {
