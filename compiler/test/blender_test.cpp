@@ -173,7 +173,7 @@ TEST(BlenderSolids, AreMeshesWithAFaceForEachFormulaAndMaterial) {
     ASSERT_EQ(made.size(), 2U);
     EXPECT_EQ(made.at("egg").faces.size(), 1U); // all inside the container
     EXPECT_EQ(made.at("egg").faces[0].formula, BlenderFace::Formula::field);
-    EXPECT_EQ(made.at("cut").faces.size(), 3U); // the box's, the sphere's and the cone's; its base is flush
+    EXPECT_EQ(made.at("cut").faces.size(), 4U); // the box's, the sphere's, the cone's and its base
     EXPECT_EQ(std::count_if(made.at("cut").faces.begin(), made.at("cut").faces.end(),
                             [](const BlenderFace& face) { return face.inverted; }),
               2);
