@@ -17,6 +17,9 @@ template <class Shape>
 std::optional<runtime::Bounds<double>> object_bounds(const Shape& shape, const ir::Scene& scene) {
     if constexpr (std::is_same_v<Shape, runtime::Plane<double>>) {
         return std::nullopt;
+    } else if constexpr (std::is_same_v<Shape, runtime::Quadric<double>>) {
+        const runtime::Bounds<double> box = shape.inside_bounds();
+        return is_finite(box) ? std::optional(box) : std::nullopt;
     } else if constexpr (std::is_same_v<Shape, runtime::Mesh<double>>) {
         return scene.meshes[shape.mesh].box;
     } else if constexpr (std::is_same_v<Shape, runtime::Csg<double>>) {

@@ -92,19 +92,15 @@ std::vector<bool> reached(const ir::Function& function, const Range* ranges) {
     needed[function.results[0]] = true;
     for (std::size_t i = function.nodes.size(); i-- > 0;) {
         const ir::Node& node = function.nodes[i];
-        if (!needed[i] || node.kind != ir::Node::Kind::apply) {
-            continue;
-        }
-        for (int k = 0; k < ir::row(node.op).arity; ++k) {
-            const auto operand = static_cast<std::size_t>(k);
-            if (node.op == Op::select) {
+        for (std::size_t k = 0; needed[i] && k < arity(node); ++k) {
+            if (node.kind == ir::Node::Kind::apply && node.op == Op::select) {
                 const Range& condition = ranges[node.operands[0]];
                 const bool is_true = condition.min > 0, is_false = condition.max == 0;
                 if ((k == 1 && is_false) || (k == 2 && is_true)) {
                     continue;
                 }
             }
-            needed[node.operands[operand]] = true;
+            needed[node.operands[k]] = true;
         }
     }
     return needed;

@@ -1,5 +1,8 @@
 #include "compiler/function_builder.h"
 
+#include "runtime/function.h"
+
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <stdexcept>
@@ -64,6 +67,34 @@ std::uint32_t FunctionBuilder::apply_row(ir::Op op, const std::vector<std::uint3
     return add({2, static_cast<std::uint64_t>(op), node.operands}, node);
 }
 
+std::optional<std::array<lang::Scalar, 3>> FunctionBuilder::image(const lang::ThingPtr& image,
+                                                                  const std::array<lang::Scalar, 2>& uv) {
+    const std::shared_ptr<const ir::Image> found = table_ != nullptr ? table_->find(image) : nullptr;
+    if (!found) {
+        return std::nullopt;
+    }
+    std::array<std::uint32_t, 2> operands{};
+    for (std::size_t i = 0; i < uv.size(); ++i) {
+        operands[i] = uv[i].is_constant() ? constant(uv[i].value) : uv[i].symbol;
+    }
+    std::array<lang::Scalar, 3> channels;
+    for (std::uint8_t channel = 0; channel < 3; ++channel) {
+        channels[channel] = {0, look_up(found, channel, operands[0], operands[1])};
+    }
+    return channels;
+}
+
+std::uint32_t FunctionBuilder::look_up(const std::shared_ptr<const ir::Image>& image, std::uint8_t channel,
+                                       std::uint32_t u, std::uint32_t v) {
+    const auto known = std::find(images_.begin(), images_.end(), image);
+    ir::Node node{.kind = ir::Node::Kind::image, .channel = channel, .operands = {u, v, 0}};
+    node.image = static_cast<std::uint32_t>(known - images_.begin());
+    if (known == images_.end()) {
+        images_.push_back(image);
+    }
+    return add({3, runtime::channel_of(node.image, channel), node.operands}, node);
+}
+
 /// By squaring, which is faster than the library's power and has narrower bounds than products of the base.
 std::uint32_t FunctionBuilder::whole_power(std::uint32_t base, unsigned exponent) {
     if (exponent == 1) {
@@ -85,10 +116,8 @@ ir::Function FunctionBuilder::finish(const std::vector<lang::Scalar>& results) {
     }
     // Operands come before the nodes that use them, so one pass from the end marks all.
     for (std::size_t i = nodes_.size(); i-- > 0;) {
-        if (needed[i] && nodes_[i].kind == ir::Node::Kind::apply) {
-            for (int k = 0; k < ir::row(nodes_[i].op).arity; ++k) {
-                needed[nodes_[i].operands[static_cast<std::size_t>(k)]] = true;
-            }
+        for (std::size_t k = 0; needed[i] && k < arity(nodes_[i]); ++k) {
+            needed[nodes_[i].operands[k]] = true;
         }
     }
     ir::Function function;
@@ -99,7 +128,15 @@ ir::Function FunctionBuilder::finish(const std::vector<lang::Scalar>& results) {
         }
         ir::Node node = nodes_[i];
         for (std::uint32_t& operand : node.operands) {
-            operand = node.kind == ir::Node::Kind::apply ? renumbered[operand] : 0;
+            operand = arity(node) > 0 ? renumbered[operand] : 0;
+        }
+        if (node.kind == ir::Node::Kind::image) {
+            const std::shared_ptr<const ir::Image>& image = images_[node.image];
+            const auto known = std::find(function.images.begin(), function.images.end(), image);
+            node.image = static_cast<std::uint32_t>(known - function.images.begin());
+            if (known == function.images.end()) {
+                function.images.push_back(image);
+            }
         }
         renumbered[i] = static_cast<std::uint32_t>(function.nodes.size());
         function.nodes.push_back(node);

@@ -1,10 +1,13 @@
 #pragma once
 
+#include "compiler/image_table.h"
 #include "compiler/ir/function.h"
 #include "lang/value.h"
 
 #include <cstdint>
 #include <map>
+#include <memory>
+#include <optional>
 #include <string_view>
 #include <tuple>
 #include <vector>
@@ -14,9 +17,18 @@ namespace scc::compiler {
 /// Records the operations of one per-point function; an operation that was recorded before is reused.
 class FunctionBuilder : public lang::SymbolBuilder {
 public:
+    /// Without a table of images there are none.
+    explicit FunctionBuilder(ImageTable* images = nullptr) : table_(images) {}
+
     std::uint32_t constant(double value) override;
     std::uint32_t input(std::string_view name) override;
     std::uint32_t apply(std::string_view op, const std::vector<std::uint32_t>& operands) override;
+
+    std::optional<std::array<lang::Scalar, 3>> image(const lang::ThingPtr& image,
+                                                     const std::array<lang::Scalar, 2>& uv) override;
+
+    std::uint32_t look_up(const std::shared_ptr<const ir::Image>& image, std::uint8_t channel,
+                          std::uint32_t u, std::uint32_t v);
 
     void locate(lang::Span span) override { place_ = span; }
 
@@ -30,6 +42,8 @@ private:
     std::uint32_t apply_row(ir::Op op, const std::vector<std::uint32_t>& operands);
     std::uint32_t whole_power(std::uint32_t base, unsigned exponent);
 
+    ImageTable* table_;
+    std::vector<std::shared_ptr<const ir::Image>> images_;
     std::vector<ir::Node> nodes_;
     std::vector<lang::Span> places_; ///< of the nodes
     lang::Span place_{};

@@ -3,10 +3,12 @@
 #include "compiler/bounds.h"
 #include "compiler/field_bounds.h"
 #include "compiler/function_builder.h"
+#include "compiler/heightfield.h"
 #include "compiler/ir/objects.h"
 #include "compiler/lower_material.h"
 #include "compiler/lower_view.h"
 #include "compiler/mesh_cache.h"
+#include "compiler/schema.h"
 #include "compiler/shape_rules.h"
 #include "compiler/values.h"
 #include "lang/schema.h"
@@ -17,6 +19,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -49,6 +52,11 @@ void assign(bool& target, const lang::Value& value, const Number& number) {
     target = number(std::get<lang::BoolValue>(value.v).v) != 0;
 }
 template <class Number>
+void assign(runtime::Vec2<double>& target, const lang::Value& value, const Number& number) {
+    const auto& v = std::get<lang::Vec2Value>(value.v).v;
+    target = {number(v[0]), number(v[1])};
+}
+template <class Number>
 void assign(Vec3<double>& target, const lang::Value& value, const Number& number) {
     const auto& v = std::get<lang::Vec3Value>(value.v).v;
     target = {number(v[0]), number(v[1]), number(v[2])};
@@ -74,9 +82,9 @@ bool has_path_in_name(const Thing& thing) {
 
 class ObjectLowering {
 public:
-    ObjectLowering(const lang::Module& module, const LowerOptions& options, ir::Scene& scene,
-                   lang::Diagnostics& diagnostics)
-        : options_(options), scene_(scene), diagnostics_(diagnostics), materials_(scene, diagnostics),
+    ObjectLowering(const lang::Module& module, const LowerOptions& options, MaterialTable& materials,
+                   ir::Scene& scene, lang::Diagnostics& diagnostics)
+        : options_(options), scene_(scene), diagnostics_(diagnostics), materials_(materials),
           paths_may_meet_(std::any_of(module.items.begin(), module.items.end(),
                                       [](const lang::ThingPtr& item) { return has_path_in_name(*item); })) {}
 
@@ -101,6 +109,13 @@ private:
     bool add_operand(const Thing& thing, const Operand& here);
     bool add_operation(const Thing& thing, runtime::CsgOp op, const Operand& here);
     bool add_member(const Thing& thing, const Operand& here);
+    bool add_contained(const Thing& thing, const Operand& here);
+    std::vector<Vec3<double>> points_of_line(const Thing& thing);
+    void add_line(const Thing& thing, const std::string& path, const Affine<double>& world_from_parent,
+                  const Thing* material);
+    bool add_line_operand(const Thing& thing, const Operand& here);
+    const Thing* line_material(const Thing& thing, const Thing* inherited);
+    void add_leaf(const ir::Shape& shape, const std::string& path, const Operand& here, lang::Span span);
     bool can_be_array(const lang::ThingRows& rows) const;
     void add_array(const lang::ThingRows& rows, Numbering& numbering, const Affine<double>& world_from_parent,
                    const Thing* inherited_material);
@@ -113,6 +128,7 @@ private:
     std::optional<ir::Shapes> described_shapes(const lang::ThingRows& rows, std::size_t index);
     std::optional<Affine<double>> place_of_thing(const Thing& thing, const std::string& path,
                                                  const Affine<double>& world_from_parent);
+    void check_uv(const ir::Shape& shape, const runtime::Sides& sides, const Thing& thing);
     bool has_room(std::size_t more, const Thing& thing);
     std::string next_path(Numbering& numbering, const Thing& thing) const;
     std::string unique_path(const std::string& wanted);
@@ -123,22 +139,29 @@ private:
     bool set_field(Owner& shape, const runtime::Field<Owner, T>& field, const lang::FieldValue& given,
                    const Number& number);
     std::optional<ir::Shape> implicit_shape(const Thing& thing);
-    std::optional<runtime::Container<double>> container(const lang::FieldValue& within);
+    std::optional<runtime::Container<double>> container(const lang::FieldValue& within,
+                                                        std::string_view contained);
+    std::optional<ir::Shape> heightfield_shape(const Thing& thing);
+    std::optional<std::uint32_t> make_heightfield(const Thing& thing);
+    std::uint32_t add_mesh(ir::Mesh mesh);
     std::optional<ir::Shape> mesh_shape(const Thing& thing);
-    std::optional<std::uint32_t> load_mesh(const Thing& thing, const std::string& file, MeshNormals normals);
+    std::optional<std::uint32_t> load_mesh(const Thing& thing, const std::string& file, MeshNormals normals,
+                                           bool with_uv);
     const std::filesystem::path& folder_of(const Thing& mesh) const;
 
     const LowerOptions& options_;
     ir::Scene& scene_;
     lang::Diagnostics& diagnostics_;
-    MaterialTable materials_;
-    using MeshKey = std::tuple<std::filesystem::path, std::string, MeshNormals>; ///< folder, name
+    MaterialTable& materials_;
+    using MeshKey = std::tuple<std::filesystem::path, std::string, MeshNormals, bool>; ///< folder, name
     std::map<MeshKey, std::optional<std::uint32_t>> meshes_;
+    std::map<const Thing*, std::optional<std::uint32_t>> heightfields_;
     std::set<std::string> mesh_names_;
     std::optional<host::Cache> cache_; ///< once a mesh asks for it
     std::set<std::string> paths_;
-    std::vector<lang::ThingPtr> taken_apart_; ///< things of rows; the materials refer to them
-    std::size_t count_ = 0;                   ///< of objects, those in arrays too
+    std::vector<lang::ThingPtr> made_materials_; ///< of colours of lines
+    std::vector<lang::ThingPtr> taken_apart_;    ///< things of rows; the materials refer to them
+    std::size_t count_ = 0;                      ///< of objects, those in arrays too
     bool paths_may_meet_;
     bool full_ = false;
 };
@@ -212,6 +235,9 @@ std::optional<ir::Shape> ObjectLowering::make_shape(const Thing& thing) {
     if (thing.constructor->name == runtime::Implicit<double>::name) {
         return implicit_shape(thing);
     }
+    if (thing.constructor->name == "heightfield") {
+        return heightfield_shape(thing);
+    }
     return made_by_description<std::optional<ir::Shape>>(
         thing.constructor->name,
         [&]<class Shape>(std::type_identity<Shape>) { return described_shape<Shape>(thing); });
@@ -227,7 +253,9 @@ std::string own_name(const Thing& thing) {
 // ---- implicit surfaces
 // -------------------------------------------------------------------------------------
 
-std::optional<runtime::Container<double>> ObjectLowering::container(const lang::FieldValue& within) {
+/// `contained`: the word for what is in it.
+std::optional<runtime::Container<double>> ObjectLowering::container(const lang::FieldValue& within,
+                                                                    std::string_view contained) {
     const Thing& thing = *to_thing(within.value);
     std::string wrong;
     if (thing.rows || thing.constructor->takes_children ||
@@ -238,9 +266,10 @@ std::optional<runtime::Container<double>> ObjectLowering::container(const lang::
     } else if (const lang::Value* caps = thing.get("caps"); caps != nullptr && !to_bool(*caps)) {
         wrong = fmt::format("this {} is open; a container is closed", thing.constructor->name);
     } else if (thing.find("transform") != nullptr) {
-        wrong = "a container has no `transform`; the implicit surface can have one";
+        wrong = fmt::format("a container has no `transform`; the {} can have one", contained);
     } else if (thing.find("material") != nullptr) {
-        wrong = "a container has no `material`; where it cuts, the implicit surface's own is seen";
+        wrong =
+            fmt::format("a container has no `material`; where it cuts, that of the {} is seen", contained);
     }
     if (!wrong.empty()) {
         diagnostics_.report(Diag::unusable_container, within.value_span, wrong);
@@ -262,15 +291,21 @@ std::optional<runtime::Container<double>> ObjectLowering::container(const lang::
 }
 
 std::optional<ir::Shape> ObjectLowering::implicit_shape(const Thing& thing) {
-    const auto within = container(*thing.find("within"));
+    const auto within = container(*thing.find("within"), "implicit surface");
     const lang::FieldValue& field = *thing.find("field");
     const auto& closure = std::get<lang::ClosurePtr>(field.value.v);
-    FunctionBuilder builder;
-    const std::vector<lang::Scalar> results = lang::trace_at_point(closure, builder, diagnostics_);
+    FunctionBuilder builder(options_.images);
+    const std::vector<lang::Scalar> results =
+        lang::trace_at_point(closure, builder, diagnostics_, options_.images);
     if (!within || results.size() != 1) {
         return std::nullopt;
     }
     ir::Function function = builder.finish(results);
+    if (!function.images.empty()) {
+        diagnostics_.report(Diag::unsupported_setting, field.value_span,
+                            "an image in the field of an implicit surface");
+        return std::nullopt;
+    }
     function.name = lang::name_of(*closure).empty() ? own_name(thing) + " field" : lang::name_of(*closure);
     if (const auto found = find_unbounded(function, *within)) {
         diagnostics_.report(Diag::unbounded_field,
@@ -290,9 +325,10 @@ std::optional<ir::Shape> ObjectLowering::mesh_shape(const Thing& thing) {
         {"file", MeshNormals::file}, {"smooth", MeshNormals::smooth}, {"flat", MeshNormals::flat}};
     const std::string file = to_text(*thing.get("file"));
     const MeshNormals normals = kinds.at(to_text(*thing.get("normals")));
-    auto [place, is_new] = meshes_.try_emplace({folder_of(thing), file, normals});
+    const bool with_uv = to_bool(*thing.get("uv"));
+    auto [place, is_new] = meshes_.try_emplace({folder_of(thing), file, normals, with_uv});
     if (is_new) {
-        place->second = load_mesh(thing, file, normals);
+        place->second = load_mesh(thing, file, normals, with_uv);
     }
     if (!place->second) {
         return std::nullopt;
@@ -307,7 +343,7 @@ const std::filesystem::path& ObjectLowering::folder_of(const Thing& mesh) const 
 }
 
 std::optional<std::uint32_t> ObjectLowering::load_mesh(const Thing& thing, const std::string& file,
-                                                       MeshNormals normals) {
+                                                       MeshNormals normals, bool with_uv) {
     const lang::Span place = place_of(thing, "file");
     const std::string quoted = fmt::format("`{}`", file);
     const Asset asset = find_asset(options_.assets, folder_of(thing), file);
@@ -328,16 +364,56 @@ std::optional<std::uint32_t> ObjectLowering::load_mesh(const Thing& thing, const
         for (const std::string& warning : loaded.warnings) {
             diagnostics_.report(Diag::suspect_mesh, place, quoted, warning);
         }
-        const std::string wanted = loaded.mesh.name;
-        for (int i = 2; !mesh_names_.insert(loaded.mesh.name).second; ++i) {
-            loaded.mesh.name = fmt::format("{} {}", wanted, i);
+        if (!with_uv) {
+            loaded.mesh.uvs = {};
+            loaded.mesh.uv_indices = {};
         }
-        scene_.meshes.push_back(std::move(loaded.mesh));
-        return static_cast<std::uint32_t>(scene_.meshes.size() - 1);
+        return add_mesh(std::move(loaded.mesh));
     } catch (const MeshError& error) {
         diagnostics_.report(Diag::broken_mesh, place, quoted, error.what());
         return std::nullopt;
     }
+}
+
+std::uint32_t ObjectLowering::add_mesh(ir::Mesh mesh) {
+    const std::string wanted = mesh.name;
+    for (int i = 2; !mesh_names_.insert(mesh.name).second; ++i) {
+        mesh.name = fmt::format("{} {}", wanted, i);
+    }
+    scene_.meshes.push_back(std::move(mesh));
+    return static_cast<std::uint32_t>(scene_.meshes.size() - 1);
+}
+
+/// A value that is used in several places is one mesh.
+std::optional<ir::Shape> ObjectLowering::heightfield_shape(const Thing& thing) {
+    auto [known, is_new] = heightfields_.try_emplace(&thing);
+    if (is_new) {
+        known->second = make_heightfield(thing);
+    }
+    return known->second ? std::optional<ir::Shape>(runtime::Mesh<double>{*known->second}) : std::nullopt;
+}
+
+std::optional<std::uint32_t> ObjectLowering::make_heightfield(const Thing& thing) {
+    const lang::FieldValue& field = *thing.find("field");
+    FunctionBuilder builder(options_.images);
+    const std::vector<lang::Scalar> results = lang::trace_at_pair(std::get<lang::ClosurePtr>(field.value.v),
+                                                                  builder, diagnostics_, options_.images);
+    if (results.size() != 1) {
+        return std::nullopt;
+    }
+    const auto& size = std::get<lang::Vec2Value>(thing.get("size")->v).v;
+    const auto& cells = std::get<lang::Vec2Value>(thing.get("cells")->v).v;
+    HeightfieldMesh made = heightfield_mesh(own_name(thing), builder.finish(results),
+                                            {size[0].value, size[1].value, to_number(*thing.get("height")),
+                                             static_cast<std::size_t>(cells[0].value),
+                                             static_cast<std::size_t>(cells[1].value)});
+    if (made.bad) {
+        diagnostics_.report(Diag::not_finite, field.value_span,
+                            fmt::format("the height at ({:.6g}, {:.6g})", made.bad->u, made.bad->v),
+                            fmt::format("{:.6g}", made.bad->value));
+        return std::nullopt;
+    }
+    return add_mesh(std::move(made.mesh));
 }
 
 // ---- objects
@@ -437,6 +513,15 @@ std::optional<runtime::CsgOp> csg_op(const Thing& thing) {
     return std::nullopt;
 }
 
+/// A quadric within a container is the intersection of both.
+bool is_contained(const Thing& thing) {
+    return thing.constructor->name == runtime::Quadric<double>::name && thing.find("within") != nullptr;
+}
+
+bool is_line(const Thing& thing) {
+    return thing.constructor->name == "polyline";
+}
+
 void ObjectLowering::add(const Thing& thing, const std::string& path, const Affine<double>& world_from_parent,
                          const Thing* inherited_material) {
     const auto place = place_of_thing(thing, path, world_from_parent);
@@ -448,7 +533,11 @@ void ObjectLowering::add(const Thing& thing, const std::string& path, const Affi
     if (!has_room(1, thing)) {
         return;
     }
-    if (csg_op(thing)) {
+    if (is_line(thing)) {
+        add_line(thing, path, *place, material);
+        return;
+    }
+    if (csg_op(thing) || is_contained(thing)) {
         add_solid(thing, path, *place, material);
         return;
     }
@@ -458,8 +547,26 @@ void ObjectLowering::add(const Thing& thing, const std::string& path, const Affi
     }
     if (const std::optional<ir::Shape> shape = make_shape(thing)) {
         ++count_;
-        scene_.objects.push_back(
-            {*shape, *place, materials_.sides(material, path), unique_path(path), thing.span});
+        const runtime::Sides sides = materials_.sides(material, path);
+        check_uv(*shape, sides, thing);
+        scene_.objects.push_back({*shape, *place, sides, unique_path(path), thing.span});
+    }
+}
+
+/// Whether the shape has what the functions of its materials read.
+void ObjectLowering::check_uv(const ir::Shape& shape, const runtime::Sides& sides, const Thing& thing) {
+    const auto reads_uv = [&](std::uint32_t material) {
+        return ir::material_reads(scene_, material, ir::Input::uv_x, ir::Input::uv_y);
+    };
+    if (!reads_uv(sides.front) && !reads_uv(sides.back)) {
+        return;
+    }
+    const auto* mesh = std::get_if<runtime::Mesh<double>>(&shape);
+    if (mesh != nullptr && scene_.meshes[mesh->mesh].uvs.empty()) {
+        const bool is_off = !to_bool(*thing.get("uv"));
+        diagnostics_.report(Diag::mesh_without_uv, is_off ? place_of(thing, "uv") : place_of(thing, "file"),
+                            is_off ? "the mesh has `uv = false`"
+                                   : "not all corners in the mesh's file have texture coordinates");
     }
 }
 
@@ -472,8 +579,9 @@ void ObjectLowering::add_solid(const Thing& thing, const std::string& path,
     const std::string_view word = thing.constructor->name;
     const auto root = static_cast<std::uint32_t>(scene_.csg_nodes.size());
     const std::size_t members = scene_.members.size();
+    const Operand whole{path, world_from_parent, inherited_material, word, false};
     const bool sound =
-        add_operation(thing, *csg_op(thing), {path, world_from_parent, inherited_material, word, false});
+        is_contained(thing) ? add_contained(thing, whole) : add_operation(thing, *csg_op(thing), whole);
     const auto take_back = [&] {
         scene_.csg_nodes.resize(root);
         scene_.members.resize(members);
@@ -546,16 +654,19 @@ bool ObjectLowering::add_operand(const Thing& thing, const Operand& here) {
                          here.inverted};
     return thing.constructor->takes_children
                ? add_operation(thing, op.value_or(runtime::CsgOp::unite), within)
-               : add_member(thing, within);
+           : is_line(thing)      ? add_line_operand(thing, within)
+           : is_contained(thing) ? add_contained(thing, within)
+                                 : add_member(thing, within);
 }
 
 bool ObjectLowering::add_member(const Thing& thing, const Operand& here) {
-    if (thing.constructor->name == runtime::Mesh<double>::name) {
-        diagnostics_.report(Diag::unsupported_setting, thing.span, fmt::format("a mesh in a {}", here.solid));
-        return false;
-    }
     const std::optional<ir::Shape> shape = make_shape(thing);
     if (!shape) {
+        return false;
+    }
+    if (std::holds_alternative<runtime::Mesh<double>>(*shape)) {
+        diagnostics_.report(Diag::unsupported_setting, thing.span,
+                            fmt::format("a {} in a {}", thing.constructor->name, here.solid));
         return false;
     }
     if (const std::string_view open = open_part(*shape); !open.empty()) {
@@ -563,12 +674,112 @@ bool ObjectLowering::add_member(const Thing& thing, const Operand& here) {
                             fmt::format("this {} {}", thing.constructor->name, open), here.solid);
         return false;
     }
+    add_leaf(*shape, here.path, here, thing.span);
+    return true;
+}
+
+bool ObjectLowering::add_contained(const Thing& thing, const Operand& here) {
+    const std::optional<ir::Shape> quadric = make_shape(thing);
+    const auto within = container(*thing.find("within"), thing.constructor->name);
+    if (!quadric || !within) {
+        return false;
+    }
+    scene_.csg_nodes.push_back({runtime::CsgOp::intersect, 3});
+    add_leaf(*quadric, here.path + "/surface", here, thing.span);
+    add_leaf(within->visit([](const auto& shape) { return ir::Shape{shape}; }), here.path + "/within", here,
+             thing.span);
+    return true;
+}
+
+void ObjectLowering::add_leaf(const ir::Shape& shape, const std::string& path, const Operand& here,
+                              lang::Span span) {
     ++count_;
     scene_.csg_nodes.push_back(
         {runtime::CsgOp::member, 1, static_cast<std::uint32_t>(scene_.members.size()), here.inverted});
-    scene_.members.push_back({*shape, here.world_from_parent,
-                              materials_.sides(here.inherited_material, here.path), unique_path(here.path),
-                              thing.span});
+    scene_.members.push_back({shape, here.world_from_parent, materials_.sides(here.inherited_material, path),
+                              unique_path(path), span});
+}
+
+// ---- polylines
+// -----------------------------------------------------------------------------------------------
+
+/// f(shape, its part of the path) with the balls and tubes of a line: a ball at each point and a tube to the
+/// next. Tubes are open where nothing but surfaces counts, since their ends lie within the balls.
+template <class F>
+void for_each_capsule(const std::vector<Vec3<double>>& points, double radius, bool closed, F f) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        f(ir::Shape{runtime::Sphere<double>{points[i], radius}}, fmt::format("/ball[{}]", i));
+        if (i + 1 < points.size()) {
+            f(ir::Shape{runtime::Cylinder<double>{points[i], points[i + 1], radius, closed}},
+              fmt::format("/tube[{}]", i));
+        }
+    }
+}
+
+/// Without repetitions; none where the line cannot be drawn, which is reported.
+std::vector<Vec3<double>> ObjectLowering::points_of_line(const Thing& thing) {
+    if (thing.find("radius") == nullptr) {
+        diagnostics_.report(Diag::thin_line, thing.span);
+        return {};
+    }
+    std::vector<Vec3<double>> points;
+    for (const lang::Value& value : *std::get<lang::ListPtr>(thing.get("points")->v)) {
+        if (const Vec3<double> point = to_vec3(value); points.empty() || !(points.back() == point)) {
+            points.push_back(point);
+        }
+    }
+    if (points.size() < 2) {
+        diagnostics_.report(Diag::impossible_shape, place_of(thing, "points"),
+                            "this polyline goes nowhere; it has at least two different points");
+        return {};
+    }
+    return has_room(2 * points.size() - 1, thing) ? points : std::vector<Vec3<double>>{};
+}
+
+/// `color` stands for a material of that diffuse colour.
+const Thing* ObjectLowering::line_material(const Thing& thing, const Thing* inherited) {
+    const lang::FieldValue* color = thing.find("color");
+    if (color == nullptr) {
+        return inherited;
+    }
+    lang::FieldValue diffuse = *color;
+    diffuse.name = "diffuse";
+    made_materials_.push_back(std::make_shared<const Thing>(Thing{.constructor = scene_schema().find("phong"),
+                                                                  .fields = {diffuse},
+                                                                  .children = {},
+                                                                  .name = thing.name,
+                                                                  .span = thing.span,
+                                                                  .rows = nullptr}));
+    return made_materials_.back().get();
+}
+
+void ObjectLowering::add_line(const Thing& thing, const std::string& path,
+                              const Affine<double>& world_from_parent, const Thing* material) {
+    const std::vector<Vec3<double>> points = points_of_line(thing);
+    if (points.empty()) {
+        return;
+    }
+    const runtime::Sides sides = materials_.sides(line_material(thing, material), path);
+    for_each_capsule(
+        points, to_number(*thing.get("radius")), false, [&](const ir::Shape& shape, const std::string& part) {
+            ++count_;
+            scene_.objects.push_back({shape, world_from_parent, sides, unique_path(path + part), thing.span});
+        });
+}
+
+bool ObjectLowering::add_line_operand(const Thing& thing, const Operand& here) {
+    const std::vector<Vec3<double>> points = points_of_line(thing);
+    if (points.empty()) {
+        return false;
+    }
+    Operand whole = here;
+    whole.inherited_material = line_material(thing, here.inherited_material);
+    scene_.csg_nodes.push_back(
+        {runtime::CsgOp::unite, static_cast<std::uint32_t>(2 * points.size())}); // with itself
+    for_each_capsule(points, to_number(*thing.get("radius")), true,
+                     [&](const ir::Shape& shape, const std::string& part) {
+                         add_leaf(shape, here.path + part, whole, thing.span);
+                     });
     return true;
 }
 
@@ -578,7 +789,8 @@ bool ObjectLowering::add_member(const Thing& thing, const Operand& here) {
 /// Things that describe themselves in numbers, with paths that meet no other.
 bool ObjectLowering::can_be_array(const lang::ThingRows& rows) const {
     const auto is_described = [](const lang::ThingPtr& thing) {
-        return made_by_description<bool>(thing->constructor->name, [](auto) { return true; });
+        return !is_contained(*thing) &&
+               made_by_description<bool>(thing->constructor->name, [](auto) { return true; });
     };
     return rows.count > 1 && !paths_may_meet_ &&
            std::all_of(rows.things.begin(), rows.things.end(), is_described);
@@ -684,10 +896,20 @@ std::string ObjectLowering::unique_path(const std::string& wanted) {
 ir::Scene lower(const lang::Module& module, const LowerOptions& options, lang::Diagnostics& diagnostics) {
     ir::Scene scene;
     scene.name = options.name;
-    lower_settings(module, scene, diagnostics);
-    ObjectLowering(module, options, scene, diagnostics).add_all(module.items, "", {}, nullptr);
+    const lang::Spectrum& illuminant = illuminant_of(module);
+    const Rendition rec709 = Rendition::rec709(illuminant);
+    lower_settings(module, rec709, scene, diagnostics);
+    MaterialTable materials(scene, rec709, options.images, diagnostics);
+    // Holds things that the materials refer to until the end.
+    ObjectLowering objects(module, options, materials, scene, diagnostics);
+    objects.add_all(module.items, "", {}, nullptr);
     lower_camera(module, options, scene, diagnostics);
-    lower_lights(module, scene, diagnostics);
+    lower_lights(module, rec709, scene, diagnostics);
+    if (materials.has_spectra() || view_has_spectra(module)) {
+        const std::vector<Rendition> bands = Rendition::bands(illuminant);
+        materials.add_bands(bands);
+        add_view_bands(module, bands, scene);
+    }
     return scene;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "compiler/assets.h"
+#include "compiler/image_table.h"
 #include "compiler/ir/scene.h"
 #include "lang/check.h"
 #include "lang/diagnostic.h"
@@ -16,8 +17,9 @@ struct LowerOptions {
     AssetPolicy assets;
     /// Of imported files, whose assets lie beside them.
     std::map<lang::FileId, std::filesystem::path> import_folders{};
-    std::string camera;       ///< --camera; empty: the scene's choice
-    bool keep_meshes = false; ///< take them from the user's cache and leave them there
+    std::string camera;           ///< --camera; empty: the scene's choice
+    ImageTable* images = nullptr; ///< null: there are none
+    bool keep_meshes = false;     ///< take them from the user's cache and leave them there
 };
 
 /// Makes the Scene IR from a checked module: groups are taken apart into objects with composed transforms,

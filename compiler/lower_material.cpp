@@ -1,6 +1,5 @@
 #include "compiler/lower_material.h"
 
-#include "compiler/function_builder.h"
 #include "compiler/schema.h"
 #include "compiler/values.h"
 
@@ -39,20 +38,36 @@ std::uint32_t MaterialTable::index(const Thing* phong, const std::string& owner)
     ir::Material material;
     material.span = thing.span;
     material.name = unique_name(thing.name.empty() ? owner : thing.name);
-    material.phong.diffuse = color(thing, "diffuse", material.name);
-    material.phong.ambient =
-        thing.find("ambient") != nullptr ? color(thing, "ambient", material.name) : material.phong.diffuse;
-    material.phong.specular = color(thing, "specular", material.name);
-    material.phong.emission = color(thing, "emission", material.name);
-    material.phong.reflect = color(thing, "reflect", material.name);
-    material.phong.shininess = scalar(thing, "shininess", material.name);
+    material.phong = lowered(thing, material.name, rec709_);
     warn_if_bright(thing, "diffuse", material.phong.diffuse);
     warn_if_bright(thing, "reflect", material.phong.reflect);
 
     const auto id = static_cast<std::uint32_t>(scene_.materials.size());
     scene_.materials.push_back(std::move(material));
     known_.emplace(phong, id);
+    things_.push_back(&thing);
     return id;
+}
+
+runtime::Phong<double> MaterialTable::lowered(const Thing& thing, const std::string& owner,
+                                              const Rendition& by) {
+    runtime::Phong<double> phong;
+    phong.diffuse = color(thing, "diffuse", owner, by);
+    phong.ambient = thing.find("ambient") != nullptr ? color(thing, "ambient", owner, by) : phong.diffuse;
+    phong.specular = color(thing, "specular", owner, by);
+    phong.emission = color(thing, "emission", owner, by);
+    phong.reflect = color(thing, "reflect", owner, by);
+    phong.shininess = scalar(thing, "shininess", owner);
+    return phong;
+}
+
+void MaterialTable::add_bands(const std::vector<Rendition>& bands) {
+    for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
+        ir::Material& material = scene_.materials[i];
+        for (const Rendition& band : bands) {
+            material.bands.push_back(lowered(*things_[i], material.name, band));
+        }
+    }
 }
 
 std::string MaterialTable::unique_name(const std::string& wanted) {
@@ -64,54 +79,83 @@ std::string MaterialTable::unique_name(const std::string& wanted) {
 }
 
 Varying<Rgb<double>> MaterialTable::color(const Thing& phong, std::string_view field,
-                                          const std::string& owner) {
+                                          const std::string& owner, const Rendition& by) {
     const lang::Value& value = *phong.get(field);
+    const ColorRole role = field == "emission" ? ColorRole::light : ColorRole::surface;
     if (const auto* closure = std::get_if<lang::ClosurePtr>(&value.v)) {
-        const auto [id, constants] = function(*closure, fmt::format("{} {}", owner, field));
+        const auto [id, constants] = function(*closure, fmt::format("{} {}", owner, field), by, role);
         Varying<Rgb<double>> result{{}, id};
         if (constants.size() == 3) {
             result.value = {constants[0], constants[1], constants[2]};
         }
         return result;
     }
-    return {to_rgb(value)};
+    has_spectra_ = has_spectra_ || lang::has_spectra(value);
+    return {by.rendered(value, role)};
 }
 
 Varying<double> MaterialTable::scalar(const Thing& phong, std::string_view field, const std::string& owner) {
     const lang::Value& value = *phong.get(field);
     if (const auto* closure = std::get_if<lang::ClosurePtr>(&value.v)) {
-        const auto [id, constants] = function(*closure, fmt::format("{} {}", owner, field));
+        const auto [id, constants] =
+            function(*closure, fmt::format("{} {}", owner, field), rec709_, ColorRole::surface);
         return {constants.size() == 1 ? constants[0] : 0, id};
     }
     return {to_number(value)};
 }
 
+MaterialTable::Traced& MaterialTable::traced(const lang::ClosurePtr& closure) {
+    const auto [found, is_new] = functions_.try_emplace(closure.get(), images_);
+    Traced& traced = found->second;
+    if (is_new) {
+        traced.result = lang::trace(closure, traced.builder, diagnostics_, images_);
+        has_spectra_ = has_spectra_ || traced.result.spectral;
+    }
+    return traced;
+}
+
 std::pair<std::int32_t, std::vector<double>> MaterialTable::function(const lang::ClosurePtr& closure,
-                                                                     const std::string& name) {
-    if (const auto found = functions_.find(closure.get()); found != functions_.end()) {
+                                                                     const std::string& name,
+                                                                     const Rendition& by, ColorRole role) {
+    Traced& source = traced(closure);
+    const auto [found, is_new] =
+        source.lowered.try_emplace({&by, role}, runtime::no_function, std::vector<double>{});
+    auto& [index, constants] = found->second;
+    if (!is_new) {
         return found->second;
     }
-    FunctionBuilder builder;
-    const std::vector<lang::Scalar> results = lang::trace(closure, builder, diagnostics_);
-    std::pair<std::int32_t, std::vector<double>> entry{runtime::no_function, {}};
+    const lang::Components& parts = source.result;
+    std::vector<lang::Scalar> results(parts.v.begin(), parts.v.begin() + parts.count);
+    if (parts.kind == lang::TypeKind::color) {
+        lang::ScalarMath math(&source.builder);
+        const auto rendered = by.rendered(math, parts, role);
+        results.assign(rendered.begin(), rendered.end());
+    }
     if (std::all_of(results.begin(), results.end(), [](const lang::Scalar& s) { return s.is_constant(); })) {
         for (const lang::Scalar& scalar : results) {
-            entry.second.push_back(scalar.value);
+            constants.push_back(scalar.value);
         }
-    } else {
-        ir::Function function = builder.finish(results);
-        function.name = lang::name_of(*closure).empty() ? name : lang::name_of(*closure);
-        entry.first = static_cast<std::int32_t>(scene_.functions.size());
-        scene_.functions.push_back(std::move(function));
+        return found->second;
     }
-    functions_.emplace(closure.get(), entry);
-    return entry;
+    ir::Function function = source.builder.finish(results);
+    function.name = lang::name_of(*closure).empty() ? name : lang::name_of(*closure);
+    function.name += by.name().empty() ? "" : ", " + by.name();
+    index = static_cast<std::int32_t>(scene_.functions.size());
+    scene_.functions.push_back(std::move(function));
+    return found->second;
 }
 
 void MaterialTable::warn_if_bright(const Thing& phong, std::string_view field,
                                    const Varying<Rgb<double>>& value) {
-    const double largest = std::max({value.value.r, value.value.g, value.value.b});
-    if (value.function == runtime::no_function && largest > 1) {
+    if (value.function != runtime::no_function) {
+        return;
+    }
+    double largest = std::max({value.value.r, value.value.g, value.value.b});
+    if (const lang::Value& given = *phong.get(field); lang::has_spectra(given)) {
+        const lang::Spectrum spectrum = lang::spectrum_of(lang::components(given));
+        largest = *std::max_element(spectrum.begin(), spectrum.end());
+    }
+    if (largest > 1) {
         diagnostics_.report(lang::Diag::bright_reflectance, place_of(phong, field),
                             fmt::format("`{}`", field), largest);
     }

@@ -1,6 +1,9 @@
 #pragma once
 
+#include "compiler/function_builder.h"
+#include "compiler/image_table.h"
 #include "compiler/ir/scene.h"
+#include "compiler/rendition.h"
 #include "lang/check.h"
 #include "lang/diagnostic.h"
 #include "lang/rows.h"
@@ -19,8 +22,9 @@ namespace scc::compiler {
 /// Gives every material value of a scene its place in the IR's table; a value used often is stored once.
 class MaterialTable {
 public:
-    MaterialTable(ir::Scene& scene, lang::Diagnostics& diagnostics)
-        : scene_(scene), diagnostics_(diagnostics) {}
+    MaterialTable(ir::Scene& scene, const Rendition& rec709, ImageTable* images,
+                  lang::Diagnostics& diagnostics)
+        : scene_(scene), rec709_(rec709), images_(images), diagnostics_(diagnostics) {}
 
     /// `owner` names a material that has no name of its own. A null thing is the default material.
     runtime::Sides sides(const lang::Thing* material, const std::string& owner);
@@ -30,23 +34,44 @@ public:
     std::vector<runtime::Sides> sides(const lang::ThingRows& rows, const lang::ThingPtr& material,
                                       const Owner& owner);
 
+    /// Whether some material has a spectrum.
+    bool has_spectra() const { return has_spectra_; }
+    /// Gives every material of the scene its colours in these too.
+    void add_bands(const std::vector<Rendition>& bands);
+
 private:
+    /// A per-point function, and what became of it by the rendition of its colours.
+    struct Traced {
+        explicit Traced(ImageTable* images) : builder(images) {}
+
+        FunctionBuilder builder;
+        lang::Components result;
+        std::map<std::pair<const Rendition*, ColorRole>, std::pair<std::int32_t, std::vector<double>>>
+            lowered;
+    };
+
     std::uint32_t index(const lang::Thing* phong, const std::string& owner);
     std::string unique_name(const std::string& wanted);
+    runtime::Phong<double> lowered(const lang::Thing& phong, const std::string& owner, const Rendition& by);
     runtime::Varying<runtime::Rgb<double>> color(const lang::Thing& phong, std::string_view field,
-                                                 const std::string& owner);
+                                                 const std::string& owner, const Rendition& by);
     runtime::Varying<double> scalar(const lang::Thing& phong, std::string_view field,
                                     const std::string& owner);
     /// The function's index, or no_function with its constant values.
-    std::pair<std::int32_t, std::vector<double>> function(const lang::ClosurePtr& closure,
-                                                          const std::string& name);
+    std::pair<std::int32_t, std::vector<double>>
+    function(const lang::ClosurePtr& closure, const std::string& name, const Rendition& by, ColorRole role);
+    Traced& traced(const lang::ClosurePtr& closure);
     void warn_if_bright(const lang::Thing& phong, std::string_view field,
                         const runtime::Varying<runtime::Rgb<double>>& value);
 
     ir::Scene& scene_;
+    const Rendition& rec709_;
+    ImageTable* images_;
     lang::Diagnostics& diagnostics_;
+    bool has_spectra_ = false;
     std::map<const lang::Thing*, std::uint32_t> known_;
-    std::map<const lang::Closure*, std::pair<std::int32_t, std::vector<double>>> functions_;
+    std::vector<const lang::Thing*> things_; ///< by their index
+    std::map<const lang::Closure*, Traced> functions_;
     std::set<std::string> names_;
     std::vector<lang::ThingPtr> made_; ///< known_ refers to them
 };

@@ -1,6 +1,7 @@
 #include "compiler/lower_view.h"
 
 #include "compiler/bounds.h"
+#include "compiler/schema.h"
 #include "compiler/values.h"
 #include "lang/schema.h"
 
@@ -34,6 +35,12 @@ std::vector<const Thing*> settings_of(const lang::Module& module, std::string_vi
     std::vector<const Thing*> found = things_of(module, TypeKind::setting);
     std::erase_if(found, [&](const Thing* thing) { return thing->constructor->name != name; });
     return found;
+}
+
+/// The last one; null: none.
+const Thing* world_of(const lang::Module& module) {
+    const std::vector<const Thing*> worlds = settings_of(module, "world");
+    return worlds.empty() ? nullptr : worlds.back();
 }
 
 const Thing* method_of(const Thing& render) {
@@ -127,14 +134,17 @@ void frame_everything(ir::Scene& scene, lang::Diagnostics& diagnostics) {
 
 // ---- lights --------------------------------------------------------------------------------------------
 
-void set_colors(const Thing& thing, runtime::Rgb<double>& diffuse, runtime::Rgb<double>& specular) {
-    diffuse = to_rgb(*thing.get("color"));
-    specular = thing.find("specular") != nullptr ? to_rgb(*thing.get("specular")) : diffuse;
+ir::LightColors colors_of(const Thing& light, const Rendition& by) {
+    const runtime::Rgb<double> diffuse = by.rendered(*light.get("color"), ColorRole::light);
+    const lang::FieldValue* specular = light.find("specular");
+    return {diffuse, specular != nullptr ? by.rendered(specular->value, ColorRole::light) : diffuse};
 }
 
-runtime::PointLight<double> point_light(const Thing& thing, lang::Diagnostics& diagnostics) {
+/// What all lights have that shine from points.
+runtime::PointLight<double> source_at(const Thing& thing, const char* position,
+                                      lang::Diagnostics& diagnostics) {
     runtime::PointLight<double> light;
-    light.position = to_vec3(*thing.get("position"));
+    light.position = to_vec3(*thing.get(position));
     const Vec3<double> k = to_vec3(*thing.get("attenuation"));
     light.kc = k.x;
     light.kl = k.y;
@@ -143,7 +153,43 @@ runtime::PointLight<double> point_light(const Thing& thing, lang::Diagnostics& d
         diagnostics.report(Diag::impossible_light, place_of(thing, "attenuation"),
                            "the attenuation is (0, 0, 0); one of kc, kl, kq is greater than 0");
     }
-    set_colors(thing, light.diffuse, light.specular);
+    return light;
+}
+
+runtime::SpotLight<double> spot_light(const Thing& thing, lang::Diagnostics& diagnostics) {
+    runtime::SpotLight<double> light{source_at(thing, "position", diagnostics)};
+    const Vec3<double> axis = to_vec3(*thing.get("target")) - light.position;
+    if (!(length(axis) > 0)) {
+        diagnostics.report(Diag::impossible_light, place_of(thing, "target"),
+                           "`target` lies at `position`; a spot light shines from the one to the other");
+        return light;
+    }
+    const double inner = to_radians(*thing.get("inner")), outer = to_radians(*thing.get("outer"));
+    if (inner > outer) {
+        const double degrees = 180 / std::numbers::pi;
+        diagnostics.report(Diag::impossible_light, place_of(thing, thing.find("inner") ? "inner" : "outer"),
+                           fmt::format("inner is {:.6g}deg and outer is {:.6g}deg; the light fades from "
+                                       "`inner` to `outer`, which is not less",
+                                       inner * degrees, outer * degrees));
+    }
+    light.axis = normalize(axis);
+    light.cos_inner = std::cos(inner);
+    light.cos_outer = std::cos(outer);
+    light.exponent = to_number(*thing.get("exponent"));
+    return light;
+}
+
+runtime::RectangleLight<double> rectangle_light(const Thing& thing, lang::Diagnostics& diagnostics) {
+    runtime::RectangleLight<double> light{source_at(thing, "corner", diagnostics)};
+    light.edge_u = to_vec3(*thing.get("edge_u"));
+    light.edge_v = to_vec3(*thing.get("edge_v"));
+    if (!(length(cross(normalize(light.edge_u), normalize(light.edge_v))) > 1e-12)) {
+        diagnostics.report(Diag::impossible_light, place_of(thing, "edge_v"),
+                           "`edge_u` and `edge_v` are parallel; they span a rectangle");
+    }
+    const auto& samples = std::get<lang::Vec2Value>(thing.get("samples")->v).v;
+    light.nu = static_cast<std::uint32_t>(samples[0].value);
+    light.nv = static_cast<std::uint32_t>(samples[1].value);
     return light;
 }
 
@@ -159,8 +205,13 @@ runtime::DirectionalLight<double> directional_light(const Thing& thing, lang::Di
     }
     light.to_light =
         direction ? normalize(-to_vec3(*thing.get("direction"))) : normalize(to_vec3(*thing.get("towards")));
-    set_colors(thing, light.diffuse, light.specular);
     return light;
+}
+
+std::vector<const Thing*> enabled_lights(const lang::Module& module) {
+    std::vector<const Thing*> lights = things_of(module, TypeKind::light);
+    std::erase_if(lights, [](const Thing* light) { return !to_bool(*light->get("enabled")); });
+    return lights;
 }
 
 std::string unique_light_name(const Thing& thing, std::set<std::string>& taken) {
@@ -174,10 +225,11 @@ std::string unique_light_name(const Thing& thing, std::set<std::string>& taken) 
 
 } // namespace
 
-void lower_settings(const lang::Module& module, ir::Scene& scene, lang::Diagnostics& diagnostics) {
-    if (const auto worlds = settings_of(module, "world"); !worlds.empty()) {
-        scene.ambient = to_rgb(*worlds.back()->get("ambient"));
-        scene.background = to_rgb(*worlds.back()->get("background"));
+void lower_settings(const lang::Module& module, const Rendition& rec709, ir::Scene& scene,
+                    lang::Diagnostics& diagnostics) {
+    if (const Thing* world = world_of(module)) {
+        scene.ambient = rec709.rendered(*world->get("ambient"), ColorRole::light);
+        scene.background = rec709.rendered(*world->get("background"), ColorRole::light);
     }
     const Thing* render = ray_render(module, &diagnostics);
     if (render == nullptr) {
@@ -235,26 +287,77 @@ void lower_camera(const lang::Module& module, const LowerOptions& options, ir::S
     }
 }
 
-void lower_lights(const lang::Module& module, ir::Scene& scene, lang::Diagnostics& diagnostics) {
+void lower_lights(const lang::Module& module, const Rendition& rec709, ir::Scene& scene,
+                  lang::Diagnostics& diagnostics) {
     std::set<std::string> names;
-    const std::vector<const Thing*> things = things_of(module, TypeKind::light);
-    for (const Thing* thing : things) {
-        if (!to_bool(*thing->get("enabled"))) {
-            continue;
-        }
+    for (const Thing* thing : enabled_lights(module)) {
         ir::Light light{.light = {}, .name = unique_light_name(*thing, names), .span = thing->span};
-        if (thing->constructor->name == "point_light") {
-            light.light = point_light(*thing, diagnostics);
+        const std::string_view kind = thing->constructor->name;
+        if (kind == "point_light") {
+            light.light = source_at(*thing, "position", diagnostics);
+        } else if (kind == "spot_light") {
+            light.light = spot_light(*thing, diagnostics);
+        } else if (kind == "rectangle_light") {
+            light.light = rectangle_light(*thing, diagnostics);
         } else {
             light.light = directional_light(*thing, diagnostics);
         }
+        const ir::LightColors colors = colors_of(*thing, rec709);
+        std::visit(
+            [&](auto& l) {
+                l.diffuse = colors.diffuse;
+                l.specular = colors.specular;
+            },
+            light.light);
         scene.lights.push_back(std::move(light));
     }
-    if (things.empty()) {
+    if (things_of(module, TypeKind::light).empty()) {
         diagnostics.report(Diag::no_light, lang::Span{});
         scene.lights.push_back({.light = runtime::DirectionalLight<double>{.to_light = scene.camera.n},
                                 .name = "headlight",
                                 .span = {}});
+    }
+}
+
+const lang::Spectrum& illuminant_of(const lang::Module& module) {
+    const Thing* world = world_of(module);
+    return *lang::find_illuminant(world != nullptr ? to_text(*world->get("illuminant")) : "d65");
+}
+
+bool view_has_spectra(const lang::Module& module) {
+    const auto has_spectra = [](const Thing* thing) {
+        return std::any_of(thing->fields.begin(), thing->fields.end(),
+                           [](const lang::FieldValue& field) { return lang::has_spectra(field.value); });
+    };
+    const std::vector<const Thing*> lights = enabled_lights(module);
+    const Thing* world = world_of(module);
+    return std::any_of(lights.begin(), lights.end(), has_spectra) ||
+           (world != nullptr && (has_spectra(world) || to_text(*world->get("illuminant")) != "d65"));
+}
+
+void add_view_bands(const lang::Module& module, const std::vector<Rendition>& bands, ir::Scene& scene) {
+    const Thing default_world{.constructor = scene_schema().find("world"),
+                              .fields = {},
+                              .children = {},
+                              .name = {},
+                              .span = {},
+                              .rows = nullptr};
+    const Thing* world = world_of(module) != nullptr ? world_of(module) : &default_world;
+    const std::vector<const Thing*> lights = enabled_lights(module);
+    const lang::Value white{lang::ColorValue{{lang::Scalar{1}, lang::Scalar{1}, lang::Scalar{1}}}};
+    for (const Rendition& band : bands) {
+        const auto& [red, green, blue] = band.to_rec709();
+        scene.bands.push_back({band.rendered(*world->get("ambient"), ColorRole::light),
+                               band.rendered(*world->get("background"), ColorRole::light),
+                               {red[0], red[1], red[2]},
+                               {green[0], green[1], green[2]},
+                               {blue[0], blue[1], blue[2]}});
+        for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+            // The headlight of a scene without lights is white.
+            const runtime::Rgb<double> headlight = band.rendered(white, ColorRole::light);
+            scene.lights[i].bands.push_back(i < lights.size() ? colors_of(*lights[i], band)
+                                                              : ir::LightColors{headlight, headlight});
+        }
     }
 }
 

@@ -19,7 +19,7 @@ namespace scc::compiler {
 namespace {
 
 // To be raised when the same file gives other values than before, or they are laid out otherwise.
-constexpr std::string_view mesh_format = "mesh 1", hierarchy_format = "hierarchy 1";
+constexpr std::string_view mesh_format = "mesh 2", hierarchy_format = "hierarchy 2";
 
 /// Below this, parsing takes about as long as finding.
 constexpr std::uintmax_t smallest_kept_file = 32 * 1024;
@@ -65,7 +65,8 @@ void store_mesh(const LoadedMesh& loaded) {
     const ir::Mesh& mesh = loaded.mesh;
     host::ValuesWriter values;
     values.reserve(mesh.positions.size_bytes() + mesh.normals.size_bytes() + mesh.indices.size_bytes() +
-                   mesh.normal_indices.size_bytes() + 4096);
+                   mesh.normal_indices.size_bytes() + mesh.uvs.size_bytes() + mesh.uv_indices.size_bytes() +
+                   4096);
     values.add(static_cast<std::uint64_t>(loaded.warnings.size()));
     for (const std::string& warning : loaded.warnings) {
         values.add_text(warning);
@@ -75,6 +76,8 @@ void store_mesh(const LoadedMesh& loaded) {
     values.add(mesh.normals);
     values.add(mesh.indices);
     values.add(mesh.normal_indices);
+    values.add(mesh.uvs);
+    values.add(mesh.uv_indices);
     mesh.cache.store("meshes", mesh.key, values.take_unsealed());
 }
 
@@ -96,6 +99,8 @@ std::optional<LoadedMesh> find_mesh(const host::Cache& cache, const std::string&
         values.read(loaded.mesh.normals);
         values.read(loaded.mesh.indices);
         values.read(loaded.mesh.normal_indices);
+        values.read(loaded.mesh.uvs);
+        values.read(loaded.mesh.uv_indices);
         loaded.mesh.owner = std::make_shared<const host::Cache::Entry>(std::move(*entry));
         return loaded;
     } catch (const host::FileError&) {
@@ -180,6 +185,11 @@ BuiltMesh build_mesh(const ir::Mesh& mesh, const runtime::BuildOptions& options)
         data.normals = mesh.normals.data();
         data.normal_indices = mesh.normal_indices.data();
         data.normal_count = static_cast<std::uint32_t>(mesh.normals.size() / 3);
+    }
+    if (!mesh.uvs.empty()) {
+        data.uvs = mesh.uvs.data();
+        data.uv_indices = mesh.uv_indices.data();
+        data.uv_count = static_cast<std::uint32_t>(mesh.uvs.size() / 2);
     }
     return {data, owner};
 }

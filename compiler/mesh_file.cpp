@@ -59,6 +59,7 @@ struct NoMaterials : tinyobj::MaterialReader {
 struct Parsed {
     std::vector<float> positions;
     std::vector<float> normals;
+    std::vector<float> uvs;
     std::vector<tinyobj::shape_t> shapes;
 
     std::size_t triangles() const {
@@ -125,6 +126,7 @@ Parsed parse(std::string_view text) {
     }
     parsed.positions = std::move(attributes.vertices);
     parsed.normals = std::move(attributes.normals);
+    parsed.uvs = std::move(attributes.texcoords);
     return parsed;
 }
 
@@ -132,17 +134,19 @@ void verify(const Parsed& parsed) {
     if (parsed.triangles() == 0) {
         throw MeshError("has no faces");
     }
-    const auto check_finite = [](const std::vector<float>& values, const char* what) {
+    const auto check_finite = [](const std::vector<float>& values, std::size_t size, const char* what) {
         for (std::size_t i = 0; i < values.size(); ++i) {
             if (!std::isfinite(values[i])) {
-                throw MeshError(fmt::format("{} {} is not finite", what, i / 3 + 1));
+                throw MeshError(fmt::format("{} {} is not finite", what, i / size + 1));
             }
         }
     };
-    check_finite(parsed.positions, "vertex");
-    check_finite(parsed.normals, "normal");
+    check_finite(parsed.positions, 3, "vertex");
+    check_finite(parsed.normals, 3, "normal");
+    check_finite(parsed.uvs, 2, "texture coordinate");
     const auto vertices = static_cast<int>(parsed.positions.size() / 3);
     const auto normals = static_cast<int>(parsed.normals.size() / 3);
+    const auto uvs = static_cast<int>(parsed.uvs.size() / 2);
     parsed.for_each_triangle([&](const tinyobj::index_t* corners, std::size_t triangle) {
         for (const tinyobj::index_t* corner = corners; corner != corners + 3; ++corner) {
             if (corner->vertex_index < 0 || corner->vertex_index >= vertices) {
@@ -153,6 +157,10 @@ void verify(const Parsed& parsed) {
             if (corner->normal_index >= normals) {
                 throw MeshError(fmt::format("triangle {} uses normal {}, but there are {}", triangle + 1,
                                             corner->normal_index + 1, normals));
+            }
+            if (corner->texcoord_index >= uvs) {
+                throw MeshError(fmt::format("triangle {} uses texture coordinate {}, but there are {}",
+                                            triangle + 1, corner->texcoord_index + 1, uvs));
             }
         }
     });
@@ -206,11 +214,22 @@ bool file_normals_usable(const Parsed& parsed) {
     return usable;
 }
 
+// Those of all corners: what lacks them in parts has none.
+bool has_uvs(const Parsed& parsed) {
+    bool all = !parsed.uvs.empty();
+    parsed.for_each_triangle([&](const tinyobj::index_t* corners, std::size_t) {
+        all = all && corners[0].texcoord_index >= 0 && corners[1].texcoord_index >= 0 &&
+              corners[2].texcoord_index >= 0;
+    });
+    return all;
+}
+
 // Returns how many triangles were left out because their corners lie on a line.
-std::size_t add_triangles(ir::MeshArrays& mesh, const Parsed& parsed, bool with_normals) {
+std::size_t add_triangles(ir::MeshArrays& mesh, const Parsed& parsed, bool with_normals, bool with_uvs) {
     const std::size_t triangles = parsed.triangles();
     mesh.indices.reserve(3 * triangles);
     mesh.normal_indices.reserve(with_normals ? 3 * triangles : 0);
+    mesh.uv_indices.reserve(with_uvs ? 3 * triangles : 0);
     parsed.for_each_triangle([&](const tinyobj::index_t* corners, std::size_t) {
         for (std::size_t k = 0; k < 3; ++k) {
             mesh.indices.push_back(static_cast<std::uint32_t>(corners[k].vertex_index));
@@ -221,6 +240,9 @@ std::size_t add_triangles(ir::MeshArrays& mesh, const Parsed& parsed, bool with_
         }
         for (std::size_t k = 0; with_normals && k < 3; ++k) {
             mesh.normal_indices.push_back(static_cast<std::uint32_t>(corners[k].normal_index));
+        }
+        for (std::size_t k = 0; with_uvs && k < 3; ++k) {
+            mesh.uv_indices.push_back(static_cast<std::uint32_t>(corners[k].texcoord_index));
         }
     });
     return triangles - mesh.indices.size() / 3;
@@ -253,11 +275,15 @@ LoadedMesh parse_obj(std::string_view text, MeshNormals normals) {
     ir::MeshArrays mesh;
     mesh.positions = std::move(parsed.positions);
     const bool with_normals = normals == MeshNormals::file && file_normals_usable(parsed);
-    if (const std::size_t dropped = add_triangles(mesh, parsed, with_normals); dropped > 0) {
+    const bool with_uvs = has_uvs(parsed);
+    if (const std::size_t dropped = add_triangles(mesh, parsed, with_normals, with_uvs); dropped > 0) {
         result.warnings.push_back(
             fmt::format("{} of {} triangles have no area and were left out", dropped, parsed.triangles()));
     }
     parsed.shapes.clear();
+    if (with_uvs) {
+        mesh.uvs = std::move(parsed.uvs);
+    }
     if (mesh.indices.empty()) {
         throw MeshError("has no triangle with an area");
     }

@@ -167,17 +167,19 @@ Loaded load(const SceneOptions& options, Stage last) {
     if (last < Stage::module) {
         return loaded;
     }
+    ImageTable images(asset_policy(options, definitions), loaded.sources, loaded.diagnostics);
     timed(loaded, "check", [&] {
         const std::unique_ptr<lang::Importer> importer = make_importer(options, definitions);
         loaded.module = lang::check(loaded.tree, scene_schema(), definitions, loaded.sources,
-                                    loaded.diagnostics, {}, importer.get(), options.frame);
+                                    loaded.diagnostics, {}, importer.get(), options.frame, &images);
     });
     check_frame(options, loaded);
     if (last < Stage::scene) {
         return loaded;
     }
     timed(loaded, "lower", [&] {
-        const LowerOptions lowering = lower_options(options, definitions, loaded);
+        LowerOptions lowering = lower_options(options, definitions, loaded);
+        lowering.images = &images;
         if (loaded.diagnostics.has_errors()) {
             lower_the_rest(loaded, lowering);
         } else {

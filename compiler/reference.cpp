@@ -142,6 +142,30 @@ render { frames = 0..96, frame_rate = 24 }
 
 )";
 
+constexpr std::string_view surfaces = R"(## Coordinates on surfaces
+
+`s.uv` is a vec2 of a shape's own, before its transform. Seen from outside, u grows to the right and v upwards, so that a
+picture over (0, 0) to (1, 1) is upright and not mirrored.
+
+| shape | `s.uv` |
+| --- | --- |
+| `sphere` | (0, 0) to (1, 1): longitude about the y axis, 1/2 towards z and 3/4 towards x, and latitude, 1 towards y |
+| `box` | (0, 0) to (1, 1) on each face, y upwards; on the faces across y, -z goes up at the top and z at the bottom |
+| `cylinder`, `cone` | the side: u around the axis as on a sphere, v from 0 at `from` to 1 at `to`; a cap: as a disc |
+| `disc` | (0, 0) to (1, 1) over the square around it |
+| `plane` | lengths from the origin: (x, -z) where `normal` is the y axis |
+| `triangle` | `uvs` at its corners, else (0, 0), (1, 0), (0, 1); interpolated |
+| `mesh` | the file's texture coordinates, interpolated; (0, 0) where it has none, with a warning |
+| `implicit` | (x, y) of the point |
+
+The members of solids keep theirs. Upwards on a flat surface is the direction that comes nearest to y; where the normal is nearer to
+the y axis than to the others, to -z (z, where it points down). An axis other than y is turned likewise.
+
+The texel with its centre at ((i + 1/2) / width, (j + 1/2) / height) is in column i and in row j from the bottom of the file's
+picture. Codes become linear light before they are blended.
+
+)";
+
 constexpr std::array types{
     Row{"number", "a double"},
     Row{"angle", "with a unit: `30deg`"},
@@ -152,13 +176,14 @@ constexpr std::array types{
     Row{"color", "linear light with Rec.709 primaries"},
     Row{"transform", "an affine map; `a then b` does a first"},
     Row{"range", "`0..5`: whole numbers, the end excluded"},
-    Row{"surface",
-        "the argument of a function of a point: `s.p` in the object's space, `s.world`, the normal `s.n`"},
+    Row{"surface", "the argument of a function of a point: `s.p` in the object's space, `s.world`, the "
+                   "normal `s.n`, the "
+                   "coordinates on the surface `s.uv`"},
     Row{"shape", "what a shape's constructor makes"},
     Row{"material", "what a material's constructor makes"},
     Row{"light", "what a light's constructor makes"},
     Row{"camera", "what a camera's constructor makes"},
-    Row{"image", "not supported yet"},
+    Row{"image", "what `image` makes: a function of a vec2 that gives a color"},
     Row{"setting", "`world` or `render`"},
     Row{"method", "`ray` or `raster`"},
     Row{"scene", "what `name.scene` of an import is"},
@@ -225,6 +250,12 @@ const std::map<std::string_view, std::string_view>& examples() {
         {"cone", "cone { from = (0, 0, 0), to = (0, 2, 0), radius_from = 1, radius_to = 0.2 }"},
         {"disc", "disc { normal = (0, 0, 1), radius = 1, hole = 0.5 }"},
         {"triangle", "triangle { points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)] }"},
+        {"torus", "torus { center = (0, 0.3, 0), axis = (0, 1, 0), major = 1, minor = 0.3 }"},
+        {"quadric", "quadric { // a hyperboloid of one sheet\n  squares = (1, -0.5, 1)\n  constant = -0.2\n  "
+                    "within = box { min = (-2, -1, -2), max = (2, 1, 2) }\n}"},
+        {"heightfield", "fn waves(uv: vec2) -> number = 0.5 + 0.5 * sin(20 * uv.x) * cos(15 * uv.y)\n"
+                        "heightfield { field = waves, size = (8, 8), height = 0.4, cells = (64, 64) }"},
+        {"polyline", "polyline { points = [(0, 0, 0), (1, 1, 0), (2, 0, 0)], radius = 0.05 }"},
         {"mesh", "fn model(file: string) -> shape = mesh { file = file, normals = \"smooth\" }"},
         {"group", "group {\n  transform = rotate_y(30deg)\n  sphere { }\n  sphere { center = (2, 0, 0) }\n}"},
         {"implicit", "implicit {\n  field = fn(p: vec3) = p.x ^ 4 + p.y ^ 4 + p.z ^ 4 - 1\n  within = sphere "
@@ -239,7 +270,14 @@ const std::map<std::string_view, std::string_view>& examples() {
          "0.2) } }"},
         {"two_sided", "let mirror = phong { diffuse = rgb(0.1, 0.1, 0.1), reflect = rgb(0.8, 0.8, 0.8) }\n"
                       "disc { material = two_sided { front = mirror, back = phong { } } }"},
+        {"image", "let wood = image { file = \"wood.png\" }\nfn grain(s: surface) -> color = wood(s.uv * 4)\n"
+                  "fn plank(width: number) -> shape = box { max = (width, 1, 1), material = phong { diffuse "
+                  "= grain } }"},
         {"point_light", "point_light { position = (4, 6, 3), attenuation = (1, 0.05, 0.01) }"},
+        {"spot_light",
+         "spot_light { position = (0, 5, 2), target = (0, 0, 0), inner = 15deg, outer = 20deg }"},
+        {"rectangle_light", "rectangle_light { corner = (-1, 4, -1), edge_u = (2, 0, 0), edge_v = (0, 0, 2), "
+                            "samples = (6, 6) }"},
         {"directional_light", "directional_light { direction = (-1, -2, -1), color = rgb(0.3, 0.3, 0.35) }"},
         {"perspective_camera", "perspective_camera { eye = (4, 3, 6), target = (0, 0.5, 0), fov_y = 40deg }"},
         {"orthographic_camera", "orthographic_camera { eye = (3, 2.5, 4), height = 3 }"},
@@ -355,7 +393,8 @@ std::string value_of(std::string_view expression) {
 }
 
 std::string functions_text() {
-    std::string text = "## Functions\n\nArguments are given by position.\n\n";
+    std::string text = "## Functions\n\nArguments are given by position, or by name: `mix(a = 1, b = 2, t = "
+                       "0.5)`. The list functions take them by position.\n\n";
     for (const lang::FunctionDoc& row : lang::function_docs()) {
         text += fmt::format("### {}\n\n", row.name);
         for (const std::string& signature : row.signatures) {
@@ -438,7 +477,8 @@ std::string diagnostics_text() {
 
 std::string reference_text() {
     return std::string(head) + types_text() + std::string(operators) + words_text() + std::string(imports) +
-           constructors_text() + functions_text() + limits_text() + diagnostics_text();
+           std::string(surfaces) + constructors_text() + functions_text() + limits_text() +
+           diagnostics_text();
 }
 
 } // namespace scc::compiler

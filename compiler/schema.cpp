@@ -1,5 +1,6 @@
 #include "compiler/schema.h"
 
+#include "lang/spectrum.h"
 #include "runtime/field.h"
 #include "runtime/shapes/list.h"
 
@@ -80,6 +81,10 @@ Type type_of(const runtime::Vec3<double>&) {
     return TypeKind::vec3;
 }
 template <std::size_t N>
+Type type_of(const std::array<runtime::Vec2<double>, N>&) {
+    return Type::list_of(TypeKind::vec2);
+}
+template <std::size_t N>
 Type type_of(const std::array<runtime::Vec3<double>, N>&) {
     return Type::list_of(TypeKind::vec3);
 }
@@ -123,6 +128,13 @@ void add_shape(std::vector<Constructor>& rows) {
         Constructor row{.name = Shape::name, .type = TypeKind::shape};
         std::apply([&](const auto&... f) { (row.fields.push_back(schema_field(Shape{}, f)), ...); },
                    Shape::fields());
+        if constexpr (std::is_same_v<Shape, runtime::Quadric<double>>) {
+            row.fields.push_back({.name = "within",
+                                  .type = TypeKind::shape,
+                                  .doc =
+                                      "a sphere, box, cylinder or cone: only what is inside of it, and its "
+                                      "own surface closes the solid; else the quadric is unbounded"});
+        }
         add_shape_fields(row);
         rows.push_back(std::move(row));
     }
@@ -148,7 +160,10 @@ Constructor mesh() {
          .default_value = text("file"),
          .choices = {"file", "smooth", "flat"},
          .doc = "the file's (flat where it has none), averaged at the vertices, or one per face"},
-        unsupported("uv", TypeKind::boolean),
+        {.name = "uv",
+         .type = TypeKind::boolean,
+         .default_value = boolean(true),
+         .doc = "whether the file's texture coordinates are kept for `s.uv`"},
     };
     add_shape_fields(row);
     return row;
@@ -166,6 +181,36 @@ Constructor implicit() {
                    .type = TypeKind::shape,
                    .required = true,
                    .doc = "a sphere, box, cylinder or cone; its surface closes the solid"}};
+    add_shape_fields(row);
+    return row;
+}
+
+Constructor heightfield() {
+    Constructor row{.name = "heightfield",
+                    .type = TypeKind::shape,
+                    .doc = "a landscape over a rectangle in the plane y = 0 about the origin, of triangles "
+                           "with normals at their corners"};
+    row.fields = {{.name = "field",
+                   .type = Type::function({TypeKind::vec2}, TypeKind::number),
+                   .required = true,
+                   .doc = "of (u, v), which run from 0 to 1 along x and z"},
+                  {.name = "size",
+                   .type = TypeKind::vec2,
+                   .default_value = vec2(1, 1),
+                   .limits = positive("a size is greater than 0"),
+                   .doc = "in x and z"},
+                  {.name = "height",
+                   .type = TypeKind::number,
+                   .default_value = number(1),
+                   .doc = "y is this times the field"},
+                  {.name = "cells",
+                   .type = TypeKind::vec2,
+                   .default_value = vec2(256, 256),
+                   .limits = {.min = 1,
+                              .max = 2048,
+                              .integer = true,
+                              .rule = "cells along a side are a whole number from 1 to 2048"},
+                   .doc = "along x and z; each is two triangles"}};
     add_shape_fields(row);
     return row;
 }
@@ -195,6 +240,24 @@ Field color(std::string_view name, std::optional<Value> value, std::string_view 
             .per_point = per_point,
             .limits = non_negative,
             .doc = doc};
+}
+
+Constructor polyline() {
+    Constructor row{.name = "polyline", .type = TypeKind::shape, .doc = "a line from point to point"};
+    row.fields = {
+        {.name = "points", .type = Type::list_of(TypeKind::vec3), .required = true, .doc = "two or more"},
+        color("color", std::nullopt, "diffuse colour; else that of `material`"),
+        {.name = "width",
+         .type = TypeKind::number,
+         .default_value = number(1),
+         .limits = positive("a width is greater than 0"),
+         .doc = "in pixels (raster)"},
+        {.name = "radius",
+         .type = TypeKind::number,
+         .limits = positive("a radius is greater than 0"),
+         .doc = "makes it a chain of capsules, which rays can meet; needed by ray { }"}};
+    add_shape_fields(row);
+    return row;
 }
 
 Constructor phong() {
@@ -232,6 +295,35 @@ Constructor two_sided() {
             .doc = "a material for each side"};
 }
 
+Constructor image() {
+    return {
+        .name = "image",
+        .type = TypeKind::image,
+        .fields = {{.name = "file",
+                    .type = TypeKind::string,
+                    .required = true,
+                    .asset = true,
+                    .doc =
+                        "any type that OpenImageIO reads, at most 16384 texels to a side; grey stands in all "
+                        "channels, alpha is left out"},
+                   {.name = "encoding",
+                    .type = TypeKind::string,
+                    .default_value = text("srgb"),
+                    .choices = {"srgb", "linear"},
+                    .doc = "of whole numbers; a file of floats holds linear light"},
+                   {.name = "wrap",
+                    .type = TypeKind::string,
+                    .default_value = text("repeat"),
+                    .choices = {"repeat", "clamp"},
+                    .doc = "beyond 0 to 1: again and again, or as at the edge"},
+                   {.name = "filter",
+                    .type = TypeKind::string,
+                    .default_value = text("bilinear"),
+                    .choices = {"bilinear", "nearest"},
+                    .doc = "between the texels' centres: blended, or the nearest one"}},
+        .doc = "a function of a vec2 that gives a colour: `wood(s.uv)`. Over (0, 0) to (1, 1), v upwards"};
+}
+
 void add_light_fields(Constructor& row) {
     row.fields.push_back(color("color", grey(1), "intensity, for the diffuse and the specular term"));
     row.fields.push_back(
@@ -242,19 +334,84 @@ void add_light_fields(Constructor& row) {
                           .doc = "off: left out"});
 }
 
+/// Of lights that shine from points.
+void add_source_fields(Constructor& row) {
+    row.fields.push_back({.name = "attenuation",
+                          .type = TypeKind::vec3,
+                          .default_value = vec3(1, 0, 0),
+                          .limits = non_negative,
+                          .doc = "(kc, kl, kq): at distance d the light is divided by kc + kl d + kq d^2"});
+    add_light_fields(row);
+    row.fields.push_back(unsupported("power", TypeKind::number));
+}
+
 Constructor point_light() {
     Constructor row{
         .name = "point_light",
         .type = TypeKind::light,
         .fields = {
-            {.name = "position", .type = TypeKind::vec3, .default_value = vec3(0, 0, 0), .doc = "place"},
-            {.name = "attenuation",
+            {.name = "position", .type = TypeKind::vec3, .default_value = vec3(0, 0, 0), .doc = "place"}}};
+    add_source_fields(row);
+    return row;
+}
+
+Constructor spot_light() {
+    const auto half_angle = [](std::string_view name, double degrees, bool zero, std::string_view doc) {
+        return Field{.name = name,
+                     .type = TypeKind::angle,
+                     .default_value = angle_degrees(degrees),
+                     .limits = {.min = 0,
+                                .max = pi / 2,
+                                .min_excluded = !zero,
+                                .rule = "a half angle of a cone of light lies between 0 and 90deg"},
+                     .doc = doc};
+    };
+    Constructor row{
+        .name = "spot_light",
+        .type = TypeKind::light,
+        .fields = {{.name = "position", .type = TypeKind::vec3, .required = true, .doc = "place"},
+                   {.name = "target", .type = TypeKind::vec3, .required = true, .doc = "point shone at"},
+                   half_angle("inner", 20, true, "from the axis; up to here the light is whole"),
+                   half_angle("outer", 25, false,
+                              "from the axis; from here on it is dark, and in between it is multiplied by "
+                              "a smooth step of the angle's cosine"),
+                   {.name = "exponent",
+                    .type = TypeKind::number,
+                    .default_value = number(0),
+                    .limits = non_negative,
+                    .doc = "of the cosine of the angle from the axis, by which the light is multiplied"}}};
+    add_source_fields(row);
+    return row;
+}
+
+Constructor rectangle_light() {
+    const Limits edge = {.nonzero_vector = true, .rule = "an edge has a length"};
+    Constructor row{
+        .name = "rectangle_light",
+        .type = TypeKind::light,
+        .fields = {
+            {.name = "corner", .type = TypeKind::vec3, .required = true, .doc = "one corner"},
+            {.name = "edge_u",
              .type = TypeKind::vec3,
-             .default_value = vec3(1, 0, 0),
-             .limits = non_negative,
-             .doc = "(kc, kl, kq): at distance d the light is divided by kc + kl d + kq d^2"}}};
-    add_light_fields(row);
-    row.fields.push_back(unsupported("power", TypeKind::number));
+             .required = true,
+             .limits = edge,
+             .doc = "the way from there to the next corner"},
+            {.name = "edge_v",
+             .type = TypeKind::vec3,
+             .required = true,
+             .limits = edge,
+             .doc = "the way from there to the corner on the other side"},
+            {.name = "samples",
+             .type = TypeKind::vec2,
+             .default_value = vec2(4, 4),
+             .limits = {.min = 1,
+                        .max = 64,
+                        .integer = true,
+                        .rule = "samples along an edge are a whole number from 1 to 64"},
+             .doc =
+                 "points of light along `edge_u` and `edge_v`, in the middle of equal cells; each gives an "
+                 "equal part of `color`, to all sides"}}};
+    add_source_fields(row);
     return row;
 }
 
@@ -335,8 +492,16 @@ Constructor world() {
                         .default_value = text("m"),
                         .choices = {"mm", "cm", "m", "km", "inch"},
                         .doc = "what 1 stands for, for lengths with a suffix"},
-                       unsupported("observer", TypeKind::string),
-                       unsupported("illuminant", TypeKind::string)}};
+                       {.name = "observer",
+                        .type = TypeKind::string,
+                        .default_value = text("cie1931"),
+                        .choices = {"cie1931"},
+                        .doc = "whose eye turns spectra into colours: the standard one of 2 degrees"},
+                       {.name = "illuminant",
+                        .type = TypeKind::string,
+                        .default_value = text("d65"),
+                        .choices = lang::illuminant_names(),
+                        .doc = "the spectrum of light whose colour is rgb(1, 1, 1)"}}};
 }
 
 Constructor render() {
@@ -435,17 +600,10 @@ Constructor raster() {
 // The language's other words: known, so that a scene that uses one is told the truth.
 void add_unsupported(std::vector<Constructor>& rows) {
     const std::pair<std::string_view, TypeKind> words[] = {
-        {"torus", TypeKind::shape},
-        {"quadric", TypeKind::shape},
-        {"heightfield", TypeKind::shape},
-        {"polyline", TypeKind::shape},
         {"spherical_camera", TypeKind::camera},
-        {"spot_light", TypeKind::light},
-        {"rectangle_light", TypeKind::light},
         {"sky_light", TypeKind::light},
         {"glass", TypeKind::material},
         {"pbr", TypeKind::material},
-        {"image", TypeKind::image},
     };
     for (const auto& [name, type] : words) {
         rows.push_back({.name = name, .type = type, .supported = false, .doc = "not supported yet"});
@@ -459,9 +617,15 @@ constexpr std::pair<std::string_view, std::string_view> docs[] = {
     {"plane", "without end, the points p with dot(normalize(normal), p) = offset"},
     {"cylinder", "around the line between two points, open or closed by caps"},
     {"cone", "around the line between two points, with a radius at each"},
+    {"torus", "a ring, whose tube has a circle in its middle"},
+    {"quadric",
+     "the points where a polynomial of the second degree is 0, such as ellipsoids, paraboloids and "
+     "hyperboloids"},
     {"disc", "flat and round, with or without a hole"},
     {"triangle", "three points; with normals at them it looks smooth"},
     {"point_light", "shines from a point to all sides"},
+    {"spot_light", "shines from a point into a cone"},
+    {"rectangle_light", "a grid of points that shine together, for soft shadows"},
     {"directional_light", "shines from one direction everywhere, as the sun does"},
     {"perspective_camera", "central projection"},
     {"orthographic_camera", "parallel projection"},
@@ -482,9 +646,27 @@ void add_docs(std::vector<Constructor>& rows) {
 lang::Schema make_schema() {
     lang::Schema schema;
     add_shapes(schema.constructors, runtime::Shapes<double>{});
-    for (auto make :
-         {mesh, implicit, group, unite, intersection, difference, phong, two_sided, point_light,
-          directional_light, perspective_camera, orthographic_camera, world, render, ray, raster}) {
+    for (auto make : {mesh,
+                      implicit,
+                      heightfield,
+                      polyline,
+                      group,
+                      unite,
+                      intersection,
+                      difference,
+                      phong,
+                      two_sided,
+                      image,
+                      point_light,
+                      directional_light,
+                      spot_light,
+                      rectangle_light,
+                      perspective_camera,
+                      orthographic_camera,
+                      world,
+                      render,
+                      ray,
+                      raster}) {
         schema.constructors.push_back(make());
     }
     add_docs(schema.constructors);

@@ -48,6 +48,17 @@ std::string_view rule(const runtime::Triangle<double>& t) {
     return length(cross(a, b)) > 1e-14 * length(a) * length(b) ? "" : "the three points lie on a line";
 }
 
+std::string_view rule(const runtime::Torus<double>& t) {
+    return t.minor <= t.major ? "" : "the tube is thicker than its circle; `minor` is not more than `major`";
+}
+
+std::string_view rule(const runtime::Quadric<double>& q) {
+    const Vec3<double> none{0, 0, 0};
+    return q.squares == none && q.products == none && q.linear == none
+               ? "all factors are 0; a quadric has one in `squares`, `products` or `linear` that is not"
+               : "";
+}
+
 std::string_view rule(const runtime::Mesh<double>&) {
     return "";
 }

@@ -3,7 +3,9 @@
 #include "lang/check.h"
 #include "lang/colorimetry.h"
 #include "lang/components.h"
+#include "lang/spectrum.h"
 #include "lang/transforms.h"
+#include "lang/wording.h"
 
 #include <algorithm>
 #include <array>
@@ -116,19 +118,6 @@ Value srgb(BuiltinRun& run, const Arguments& a) {
     return compose(TypeKind::color, v);
 }
 
-Scalar weighted(ScalarMath& math, const Triple& weights, const Components& v) {
-    const Components by{TypeKind::vec3, 3, {Scalar{weights[0]}, Scalar{weights[1]}, Scalar{weights[2]}}};
-    return dot(math, by, v);
-}
-
-Components transformed(ScalarMath& math, const std::array<Triple, 3>& matrix, const Components& v) {
-    Components result{TypeKind::vec3, 3, {}};
-    for (std::size_t i = 0; i < 3; ++i) {
-        result.v[i] = weighted(math, matrix[i], v);
-    }
-    return result;
-}
-
 Value xyz(BuiltinRun& run, const Arguments& a) {
     const Components v{
         TypeKind::vec3, 3, {components(a[0]).v[0], components(a[1]).v[0], components(a[2]).v[0]}};
@@ -146,12 +135,72 @@ Value blackbody(BuiltinRun& run, const Arguments& a) {
     return xyz(run, {number(v[0]), number(v[1]), number(v[2])});
 }
 
+Value spectral(const Spectrum& spectrum) {
+    const SpectralTerm term{std::make_shared<const Spectrum>(spectrum), {1}};
+    return {ColorValue{{}, std::make_shared<const std::vector<SpectralTerm>>(1, term)}};
+}
+
+/// The points of a spectrum, or nothing after a report.
+std::vector<std::array<double, 2>> spectrum_points(BuiltinRun& run, const std::vector<Value>& list) {
+    std::vector<std::array<double, 2>> points;
+    const auto refuse = [&](const std::string& why) {
+        run.report.report(Diag::bad_spectrum, run.span, why);
+        return std::vector<std::array<double, 2>>{};
+    };
+    if (list.empty()) {
+        return refuse("this spectrum has no points; a point is (wavelength in nm, value)");
+    }
+    for (const Value& element : list) {
+        const Components point = components(element);
+        const double nm = point.v[0].value;
+        if (!(nm > 0) || !std::isfinite(nm) || !std::isfinite(point.v[1].value)) {
+            return refuse(
+                fmt::format("this spectrum has the point {}; a wavelength is in nm and greater than "
+                            "0, and a value is finite",
+                            to_string(element)));
+        }
+        if (!points.empty() && nm <= points.back()[0]) {
+            return refuse(fmt::format("in this spectrum {} nm comes after {} nm; wavelengths ascend",
+                                      to_string(number(nm)), to_string(number(points.back()[0]))));
+        }
+        points.push_back({nm, point.v[1].value});
+    }
+    return points;
+}
+
+Value spectrum(BuiltinRun& run, const Arguments& a) {
+    const auto points = spectrum_points(run, *std::get<ListPtr>(a[0].v));
+    return points.empty() ? Value{ErrorValue{}} : spectral(sampled(points));
+}
+
+Value unknown_name(BuiltinRun& run, std::string_view what, const Value& name,
+                   const std::vector<std::string_view>& known) {
+    std::vector<std::string> words;
+    for (const std::string_view word : known) {
+        words.push_back(fmt::format("\"{}\"", word));
+    }
+    run.report.report(Diag::unknown_choice, run.span, what, to_string(name),
+                      "the choices are " + alternatives(words));
+    return {ErrorValue{}};
+}
+
+Value metal(BuiltinRun& run, const Arguments& a) {
+    const auto reflectance = metal_reflectance(std::get<std::string>(a[0].v));
+    return reflectance ? spectral(*reflectance) : unknown_name(run, "the metal", a[0], metal_names());
+}
+
+Value illuminant(BuiltinRun& run, const Arguments& a) {
+    const Spectrum* light = find_illuminant(std::get<std::string>(a[0].v));
+    return light != nullptr ? spectral(*light)
+                            : unknown_name(run, "the illuminant", a[0], illuminant_names());
+}
+
 Value luminance(BuiltinRun& run, const Arguments& a) {
-    return number(weighted(run.math, xyz_from_rec709[1], components(a[0])));
+    return number(xyz_of(run.math, components(a[0])).v[1]);
 }
 
 Value chromaticity(BuiltinRun& run, const Arguments& a) {
-    const Components v = transformed(run.math, xyz_from_rec709, components(a[0]));
+    const Components v = xyz_of(run.math, components(a[0]));
     const Scalar sum = run.math.apply(ScalarOp::add, run.math.apply(ScalarOp::add, v.v[0], v.v[1]), v.v[2]);
     if (sum.is_constant() && sum.value == 0) {
         run.report.report(Diag::division_by_zero, run.span);
@@ -277,6 +326,7 @@ std::vector<Overload> mixes() {
     std::vector<Overload> overloads = same({K::number, K::angle, K::vec2, K::vec3, K::color}, 2, mix);
     for (Overload& overload : overloads) {
         overload.parameters.push_back(K::number);
+        overload.takes_spectra = true;
     }
     return overloads;
 }
@@ -293,6 +343,14 @@ std::vector<Overload> transforms(std::vector<std::vector<Type>> parameters, Run 
     std::vector<Overload> overloads;
     for (std::vector<Type>& list : parameters) {
         overloads.push_back({std::move(list), K::transform, run, true});
+    }
+    return overloads;
+}
+
+/// What colours with spectra go into as well.
+std::vector<Overload> seen(std::vector<Overload> overloads) {
+    for (Overload& overload : overloads) {
+        overload.takes_spectra = true;
     }
     return overloads;
 }
@@ -383,10 +441,26 @@ std::vector<Builtin> make_table() {
             "the colour of a black body of this temperature, scaled to the luminance 1; where Rec.709 cannot "
             "show it, with negative parts, which `max(blackbody(1500), rgb(0, 0, 0))` cuts off",
             "blackbody(6500)", {{{K::number}, K::color, blackbody, true}}),
-        row("luminance", {{"c"}}, "the luminance Y of a colour; 1 of rgb(1, 1, 1)", "luminance(rgb(1, 0, 0))",
-            {{{K::color}, K::number, luminance}}),
-        row("chromaticity", {{"c"}}, "the CIE 1931 chromaticity (x, y) of a colour",
-            "chromaticity(rgb(1, 1, 1))", {{{K::color}, K::vec2, chromaticity}}),
+        row("spectrum", {{"points"}},
+            "a colour by its spectrum, for lights and materials: pairs of a wavelength in nm and a value, "
+            "with straight lines between them and level outside; a light that is 1 everywhere has the "
+            "luminance 1",
+            "spectrum([(400, 0.1), (550, 0.8), (700, 0.2)])",
+            {{{Type::list_of(K::vec2)}, K::color, spectrum, true}}),
+        row("metal", {{"name"}},
+            "what a polished metal mirrors, as a spectrum from its measured refractive index: \"aluminium\", "
+            "\"chromium\", \"copper\", \"gold\", \"iron\" or \"silver\"",
+            "metal(\"gold\")", {{{K::string}, K::color, metal, true}}),
+        row("illuminant", {{"name"}},
+            "the spectrum of a CIE standard illuminant, scaled to the luminance 1: \"a\", \"d65\" or \"e\"; "
+            "times the colour of a surface, what that looks like under it",
+            "illuminant(\"d65\")", {{{K::string}, K::color, illuminant, true}}),
+        row("luminance", {{"c"}},
+            "the luminance Y of a colour; 1 of rgb(1, 1, 1). A spectrum counts as that of a light",
+            "luminance(rgb(1, 0, 0))", seen({{{K::color}, K::number, luminance}})),
+        row("chromaticity", {{"c"}},
+            "the CIE 1931 chromaticity (x, y) of a colour. A spectrum counts as that of a light",
+            "chromaticity(rgb(1, 1, 1))", seen({{{K::color}, K::vec2, chromaticity}})),
         row("translate", {{"offset"}, {"x", "y", "z"}}, "moves by an offset", "translate(1, 2, 3)",
             transforms({{K::vec3}, {K::number, K::number, K::number}}, translate)),
         row("scale", {{"factor"}, {"x", "y", "z"}},
@@ -457,8 +531,6 @@ std::string signature(std::string_view name, const Overload& overload) {
     }
     return text + ") -> " + to_string(overload.result);
 }
-constexpr std::array<std::string_view, 2> unsupported{"spectrum", "metal"};
-
 template <class Names>
 bool contains(const Names& names, std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
@@ -511,9 +583,6 @@ bool is_list_function(std::string_view name) {
 }
 bool is_statement(std::string_view name) {
     return contains(statements, name);
-}
-bool is_unsupported_name(std::string_view name) {
-    return contains(unsupported, name);
 }
 
 } // namespace scc::lang

@@ -25,6 +25,7 @@ struct Overload {
     Value (*run)(BuiltinRun& run, const std::vector<Value>& arguments);
     bool needs_constants = false;          ///< takes known arguments only
     std::vector<std::string_view> names{}; ///< of the parameters
+    bool takes_spectra = false;            ///< takes colours that have spectra
 };
 
 /// A function of the language with one result per list of parameter types. `map filter sum len` are typed by
@@ -52,7 +53,5 @@ const Builtin* find_builtin(std::string_view name);
 const std::vector<std::string_view>& function_names();
 bool is_list_function(std::string_view name);
 bool is_statement(std::string_view name);
-/// Functions and values that the language names but this version does not have.
-bool is_unsupported_name(std::string_view name);
 
 } // namespace scc::lang

@@ -30,7 +30,8 @@ FramePtr frame_of(const CheckedFile& file, const FramePtr& outer, Storage& stora
 
 Module check(std::shared_ptr<const ast::File> file, const Schema& schema,
              const std::vector<Definition>& definitions, SourceSet& sources, Diagnostics& diagnostics,
-             const EvaluationLimits& limits, Importer* importer, std::optional<std::int64_t> frame) {
+             const EvaluationLimits& limits, Importer* importer, std::optional<std::int64_t> frame,
+             ImageSource* images) {
     ImportSession session;
     session.importer = importer;
     const FileId id = file->file;
@@ -44,7 +45,7 @@ Module check(std::shared_ptr<const ast::File> file, const Schema& schema,
     Module module;
     module.storage = storage;
     RunReport report;
-    Evaluator evaluator(limits, report);
+    Evaluator evaluator(limits, report, nullptr, images);
     const FramePtr globals = frame_of(storage->code, nullptr, *storage);
     for (const auto& [identity, tree] : session.trees) {
         module.imports.push_back(tree.file);
@@ -90,10 +91,10 @@ std::optional<std::string> evaluate_name(std::shared_ptr<const ast::File> file, 
 
 namespace {
 
-std::vector<Scalar> trace_with(const Value& argument, const ClosurePtr& function, SymbolBuilder& builder,
-                               Diagnostics& diagnostics) {
+Components trace_with(const Value& argument, const ClosurePtr& function, SymbolBuilder& builder,
+                      Diagnostics& diagnostics, ImageSource* images) {
     RunReport report;
-    Evaluator evaluator({}, report, &builder);
+    Evaluator evaluator({}, report, &builder, images);
     const Span span = span_of(*function);
     const Value result = evaluator.call(*function->function, function->frame, {argument}, span);
     const Components parts = components(result);
@@ -104,23 +105,38 @@ std::vector<Scalar> trace_with(const Value& argument, const ClosurePtr& function
         }
     }
     report.flush(diagnostics);
+    return parts;
+}
+
+std::vector<Scalar> scalars(const Components& parts) {
     return {parts.v.begin(), parts.v.begin() + parts.count};
+}
+
+template <class Vector>
+Vector inputs(SymbolBuilder& builder) {
+    constexpr std::array<std::string_view, 3> names{"p.x", "p.y", "p.z"};
+    Vector vector;
+    for (std::size_t i = 0; i < vector.v.size(); ++i) {
+        vector.v[i] = {0, builder.input(names[i])};
+    }
+    return vector;
 }
 
 } // namespace
 
-std::vector<Scalar> trace(const ClosurePtr& function, SymbolBuilder& builder, Diagnostics& diagnostics) {
-    return trace_with({SurfaceValue{}}, function, builder, diagnostics);
+Components trace(const ClosurePtr& function, SymbolBuilder& builder, Diagnostics& diagnostics,
+                 ImageSource* images) {
+    return trace_with({SurfaceValue{}}, function, builder, diagnostics, images);
 }
 
 std::vector<Scalar> trace_at_point(const ClosurePtr& function, SymbolBuilder& builder,
-                                   Diagnostics& diagnostics) {
-    Vec3Value point;
-    constexpr std::array<std::string_view, 3> names{"p.x", "p.y", "p.z"};
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        point.v[i] = {0, builder.input(names[i])};
-    }
-    return trace_with({point}, function, builder, diagnostics);
+                                   Diagnostics& diagnostics, ImageSource* images) {
+    return scalars(trace_with({inputs<Vec3Value>(builder)}, function, builder, diagnostics, images));
+}
+
+std::vector<Scalar> trace_at_pair(const ClosurePtr& function, SymbolBuilder& builder,
+                                  Diagnostics& diagnostics, ImageSource* images) {
+    return scalars(trace_with({inputs<Vec2Value>(builder)}, function, builder, diagnostics, images));
 }
 
 std::string_view name_of(const Closure& function) {

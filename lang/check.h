@@ -1,7 +1,9 @@
 #pragma once
 
 #include "lang/ast.h"
+#include "lang/components.h"
 #include "lang/diagnostic.h"
+#include "lang/image_source.h"
 #include "lang/importer.h"
 #include "lang/schema.h"
 #include "lang/source.h"
@@ -67,20 +69,25 @@ struct Module {
 /// Types every expression of the file against the schema and evaluates what is right, reporting all errors.
 /// After errors, those of the parser too, the module holds the things that have no mistake in them. A `-D`
 /// that names no `param` is reported at no place (Span{}) as unknown-param. Without an importer nothing can
-/// be imported. `frame` is the one to evaluate an animated scene for, else its first.
+/// be imported, without images none has a content. `frame` is the one to evaluate an animated scene for, else
+/// its first.
 Module check(std::shared_ptr<const ast::File> file, const Schema& schema,
              const std::vector<Definition>& definitions, SourceSet& sources, Diagnostics& diagnostics,
              const EvaluationLimits& limits = {}, Importer* importer = nullptr,
-             std::optional<std::int64_t> frame = {});
+             std::optional<std::int64_t> frame = {}, ImageSource* images = nullptr);
 
-/// Runs a per-point function on an unknown surface and hands every operation to the builder. Returns one
-/// scalar for a number, three for a colour or vector; constant where the function does not depend on the
+/// Runs a per-point function on an unknown surface and hands every operation to the builder. Returns the
+/// number's, colour's or vector's components; constant where the function does not depend on the
 /// surface. What a per-point function may not do (recursion, shapes, unknown loop bounds) is reported, and
 /// the result is empty.
-std::vector<Scalar> trace(const ClosurePtr& function, SymbolBuilder& builder, Diagnostics& diagnostics);
+Components trace(const ClosurePtr& function, SymbolBuilder& builder, Diagnostics& diagnostics,
+                 ImageSource* images = nullptr);
 /// The same for a function of a point, which is the builder's p.x p.y p.z.
 std::vector<Scalar> trace_at_point(const ClosurePtr& function, SymbolBuilder& builder,
-                                   Diagnostics& diagnostics);
+                                   Diagnostics& diagnostics, ImageSource* images = nullptr);
+/// The same for a function of two numbers, which are the builder's p.x p.y.
+std::vector<Scalar> trace_at_pair(const ClosurePtr& function, SymbolBuilder& builder,
+                                  Diagnostics& diagnostics, ImageSource* images = nullptr);
 
 /// The name of the `fn` or `let` that a function value came from; empty for a lambda.
 std::string_view name_of(const Closure& function);

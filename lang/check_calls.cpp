@@ -80,8 +80,6 @@ Typed Checker::named_call(const ast::Call& node, std::string_view name, Span spa
         diagnostics_.report(Diag::misplaced_statement, name_span, name);
     } else if (schema_.find(name)) {
         return constructor_call(name, name_span, span);
-    } else if (is_unsupported_name(name)) {
-        not_supported(name_span, name);
     } else {
         return unknown(name, name_span, place, function_names());
     }
@@ -132,16 +130,23 @@ Typed Checker::function_call(const ast::Call& node, const Binding& binding, Type
         return {};
     }
     const std::vector<ast::Formal>& formals = binding.function->formals;
+    std::vector<std::string_view> names;
+    for (const ast::Formal& formal : formals) {
+        names.push_back(formal.name.text);
+    }
     std::vector<Typed> values(formals.size());
     std::vector<const ast::Expr*> given(formals.size(), nullptr);
     bool understood = true;
     for (std::size_t i = 0; i < node.arguments.size(); ++i) {
         const ast::Argument& argument = node.arguments[i];
         Typed value = expression(argument.value, place.unnamed());
-        const std::size_t at = parameter_of(node, i, binding, place);
+        const std::size_t at = parameter_of(node, i, names, binding.name);
         understood = understood && at != no_parameter;
         if (at >= formals.size()) {
             continue;
+        }
+        if (argument.name) {
+            mention(formals[at].name.span, argument.name->span, place);
         }
         if (given[at]) {
             diagnostics_.report(Diag::duplicate_argument, argument.value->span, formals[at].name.text)
@@ -172,10 +177,10 @@ Typed Checker::function_call(const ast::Call& node, const Binding& binding, Type
 }
 
 /// The index of the parameter that an argument is for; past the last one if there are too many.
-std::size_t Checker::parameter_of(const ast::Call& node, std::size_t argument, const Binding& function,
-                                  const Place& place) {
+std::size_t Checker::parameter_of(const ast::Call& node, std::size_t argument,
+                                  const std::vector<std::string_view>& names, std::string_view function) {
     if (const auto& name = node.arguments[argument].name) {
-        return parameter_index(*name, function, place);
+        return parameter_index(*name, names, function);
     }
     const auto named = [](const ast::Argument& earlier) { return earlier.name.has_value(); };
     const auto begin = node.arguments.begin();
@@ -186,21 +191,15 @@ std::size_t Checker::parameter_of(const ast::Call& node, std::size_t argument, c
     return argument;
 }
 
-std::size_t Checker::parameter_index(const ast::Name& name, const Binding& function, const Place& place) {
-    const std::vector<ast::Formal>& formals = function.function->formals;
-    std::vector<std::string_view> names;
-    for (const ast::Formal& formal : formals) {
-        names.push_back(formal.name.text);
-    }
+std::size_t Checker::parameter_index(const ast::Name& name, const std::vector<std::string_view>& names,
+                                     std::string_view function) {
     const auto found = std::find(names.begin(), names.end(), name.text);
     if (found != names.end()) {
-        const auto index = static_cast<std::size_t>(found - names.begin());
-        mention(formals[index].name.span, name.span, place);
-        return index;
+        return static_cast<std::size_t>(found - names.begin());
     }
     const auto best = nearest(name.text, names);
     Diagnostic& diagnostic =
-        diagnostics_.report(Diag::unknown_argument, name.span, function.name, name.text, did_you_mean(best));
+        diagnostics_.report(Diag::unknown_argument, name.span, function, name.text, did_you_mean(best));
     if (best) {
         diagnostic.suggest(name.span, std::string(*best));
     }
@@ -215,8 +214,12 @@ Typed Checker::value_call(const ast::Call& node, Span span, const Place& place) 
         return {};
     }
     if (callee.type.kind == TypeKind::image) {
-        diagnostics_.report(Diag::not_supported_yet, span, "a call of an image");
-        return {};
+        if (!argument_count(1, "an image", node, span)) {
+            return {TypeKind::color, nullptr};
+        }
+        expect("an image", TypeKind::vec2, values[0], *node.arguments[0].value);
+        return {TypeKind::color,
+                make_code(code::ImageCall{std::move(callee.code), std::move(values[0].code)}, span)};
     }
     if (callee.type.kind != TypeKind::function) {
         diagnostics_.report(Diag::not_callable, node.callee->span, described(callee.type));
@@ -232,8 +235,45 @@ Typed Checker::value_call(const ast::Call& node, Span span, const Place& place) 
     return {callee.type.args.back(), make_code(code::Call{std::move(callee.code), codes(values)}, span)};
 }
 
+/// Puts named arguments where the parameters are. False after a report.
+bool Checker::put_in_order(const ast::Call& node, const Builtin& builtin,
+                           std::vector<const ast::Argument*>& arguments) {
+    const auto is_named = [](const ast::Argument* argument) { return argument->name.has_value(); };
+    const auto overload = std::find_if(builtin.overloads.begin(), builtin.overloads.end(),
+                                       [&](const Overload& o) { return o.names.size() == arguments.size(); });
+    if (std::none_of(arguments.begin(), arguments.end(), is_named) || overload == builtin.overloads.end()) {
+        return true;
+    }
+    std::vector<const ast::Argument*> ordered(arguments.size(), nullptr);
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        const std::size_t at = parameter_of(node, i, overload->names, builtin.name);
+        if (at == no_parameter) {
+            return false;
+        }
+        if (ordered[at]) {
+            diagnostics_.report(Diag::duplicate_argument, arguments[i]->value->span, overload->names[at])
+                .note(ordered[at]->value->span, "the first value is here");
+            return false;
+        }
+        ordered[at] = arguments[i];
+    }
+    arguments = std::move(ordered);
+    return true;
+}
+
 Typed Checker::builtin_call(const ast::Call& node, const Builtin& builtin, Span span, const Place& place) {
-    std::vector<Typed> values = arguments(node, in_code(builtin.name), place);
+    std::vector<const ast::Argument*> given;
+    for (const ast::Argument& argument : node.arguments) {
+        given.push_back(&argument);
+    }
+    const bool understood = put_in_order(node, builtin, given);
+    std::vector<Typed> values;
+    for (const ast::Argument* argument : given) {
+        values.push_back(expression(argument->value, place.unnamed()));
+    }
+    if (!understood) {
+        return {builtin.overloads.size() == 1 ? builtin.overloads[0].result : Type{}, nullptr};
+    }
     suspect_degrees(node, builtin.name);
     for (const Overload& overload : builtin.overloads) {
         if (all_fit(overload.parameters, values)) {
@@ -244,13 +284,14 @@ Typed Checker::builtin_call(const ast::Call& node, const Builtin& builtin, Span 
             return {result, make_code(code::BuiltinCall{&overload, codes(values)}, span)};
         }
     }
-    no_overload(node, builtin, values, span);
+    no_overload(node, builtin, given, values, span);
     return {};
 }
 
 /// Explains a mismatch as narrowly as the overloads allow: one argument, the number of arguments, or all of
 /// it.
-void Checker::no_overload(const ast::Call& node, const Builtin& builtin, std::vector<Typed>& values,
+void Checker::no_overload(const ast::Call& node, const Builtin& builtin,
+                          const std::vector<const ast::Argument*>& given, std::vector<Typed>& values,
                           Span span) {
     std::vector<const Overload*> of_this_length;
     std::vector<std::string> spellings;
@@ -266,8 +307,7 @@ void Checker::no_overload(const ast::Call& node, const Builtin& builtin, std::ve
                                         [&](std::size_t length) { return length == lengths.front(); });
     if (of_this_length.size() == 1) {
         for (std::size_t i = 0; i < values.size(); ++i) {
-            expect(in_code(builtin.name), of_this_length[0]->parameters[i], values[i],
-                   *node.arguments[i].value);
+            expect(in_code(builtin.name), of_this_length[0]->parameters[i], values[i], *given[i]->value);
         }
     } else if (of_this_length.empty() && one_length) {
         argument_count(lengths[0], in_code(builtin.name), node, span);

@@ -137,9 +137,7 @@ Typed Checker::check(const ast::NameRef& node, const ast::Expr& expr, const Plac
 }
 
 Typed Checker::unknown_name(const ast::NameRef& node, Span span, const Place& place) {
-    if (is_unsupported_name(node.name)) {
-        not_supported(span, node.name);
-    } else if (schema_.find(node.name)) {
+    if (schema_.find(node.name)) {
         diagnostics_.report(Diag::bare_constructor, span, node.name).suggest(span, node.name + " { }");
     } else if (is_statement(node.name)) {
         diagnostics_.report(Diag::misplaced_statement, span, node.name);
@@ -271,11 +269,8 @@ Typed Checker::check(const ast::Member& node, const ast::Expr& expr, const Place
         if (object.type.kind != TypeKind::surface) {
             return {TypeKind::number, make_code(code::Component{std::move(object.code), i}, expr.span)};
         }
-        if (members[i] == "uv") {
-            not_supported(node.member.span, "uv");
-            return {};
-        }
-        return {TypeKind::vec3, make_code(code::SurfaceInput{std::move(object.code), members[i]}, expr.span)};
+        const TypeKind kind = members[i] == "uv" ? TypeKind::vec2 : TypeKind::vec3;
+        return {kind, make_code(code::SurfaceInput{std::move(object.code), members[i]}, expr.span)};
     }
     unknown_member(described(object.type), node.member, members);
     return {};

@@ -225,12 +225,16 @@ private:
     Typed list_call(const ast::Call& node, std::string_view name, Span span, const Place& place);
     Typed constructor_call(std::string_view name, Span name_span, Span span);
     static constexpr std::size_t no_parameter = static_cast<std::size_t>(-1);
-    std::size_t parameter_of(const ast::Call& node, std::size_t argument, const Binding& function,
-                             const Place& place);
-    std::size_t parameter_index(const ast::Name& name, const Binding& function, const Place& place);
+    std::size_t parameter_of(const ast::Call& node, std::size_t argument,
+                             const std::vector<std::string_view>& names, std::string_view function);
+    std::size_t parameter_index(const ast::Name& name, const std::vector<std::string_view>& names,
+                                std::string_view function);
     std::vector<Typed> arguments(const ast::Call& node, std::string_view subject, const Place& place);
     bool argument_count(std::size_t wanted, std::string_view subject, const ast::Call& node, Span span);
-    void no_overload(const ast::Call& node, const Builtin& builtin, std::vector<Typed>& values, Span span);
+    bool put_in_order(const ast::Call& node, const Builtin& builtin,
+                      std::vector<const ast::Argument*>& arguments);
+    void no_overload(const ast::Call& node, const Builtin& builtin,
+                     const std::vector<const ast::Argument*>& given, std::vector<Typed>& values, Span span);
     void suspect_degrees(const ast::Call& node, std::string_view name);
 
     // check_types.cpp

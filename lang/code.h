@@ -89,6 +89,9 @@ struct Call {
     CodePtr callee;
     std::vector<CodePtr> arguments; ///< in the order of the parameters; null: the default
 };
+struct ImageCall {
+    CodePtr image, uv;
+};
 struct Index {
     CodePtr object, index;
 };
@@ -154,8 +157,9 @@ struct ItemCode {
 struct Code {
     std::variant<code::Failed, code::Constant, code::Variable, code::FunctionValue, code::Unary, code::Binary,
                  code::Tuple, code::List, code::Comprehension, code::Conditional, code::Component,
-                 code::SurfaceInput, code::BuiltinCall, code::ListCall, code::Call, code::Index,
-                 code::Imported, code::ImportedScene, code::Given, code::FrameNumber, code::Construct>
+                 code::SurfaceInput, code::BuiltinCall, code::ListCall, code::Call, code::ImageCall,
+                 code::Index, code::Imported, code::ImportedScene, code::Given, code::FrameNumber,
+                 code::Construct>
         node;
     Span span;
 };

@@ -1,17 +1,16 @@
 #include "lang/colorimetry.h"
 
+#include "lang/spectrum.h"
+
 #include <cmath>
 #include <cstddef>
 
 namespace scc::lang {
 namespace {
 
-constexpr double first_wavelength = 380; // nm
-constexpr double wavelength_step = 5;
-
 /// Colour-matching functions of the CIE 1931 standard colorimetric observer, 380 to 780 nm, as tabulated in
 /// CIE 15:2004, table T.4.
-constexpr std::array<Triple, 81> observer{{
+constexpr std::array<Triple, spectrum_size> observer{{
     {0.001368, 3.9e-05, 0.00645}, {0.002236, 6.4e-05, 0.01055}, {0.004243, 0.00012, 0.02005},
     {0.00765, 0.000217, 0.03621}, {0.01431, 0.000396, 0.06785}, {0.02319, 0.00064, 0.1102},
     {0.04351, 0.00121, 0.2074},   {0.07763, 0.00218, 0.3713},   {0.13438, 0.004, 0.6456},
@@ -41,18 +40,14 @@ constexpr std::array<Triple, 81> observer{{
     {8.3e-05, 3e-05, 0.0},        {5.9e-05, 2.1e-05, 0.0},      {4.2e-05, 1.5e-05, 0.0},
 }};
 
-constexpr double wavelength(std::size_t i) {
-    return (first_wavelength + wavelength_step * static_cast<double>(i)) * 1e-9;
-}
-
 /// Spectral radiance by Planck's law, relative to that at the longest wavelength: so it neither overflows nor
 /// vanishes, however cold or hot the body is.
-double relative_radiance(double metres, double kelvin) {
-    constexpr double c2 = 1.438776877e-2; // h c / k, in m K (SI 2019)
+double relative_radiance(double nm, double kelvin) {
+    constexpr double c2 = 1.438776877e7; // h c / k, in nm K (SI 2019)
     constexpr double longest = wavelength(observer.size() - 1);
-    const double x = c2 / (metres * kelvin);
+    const double x = c2 / (nm * kelvin);
     const double x_longest = c2 / (longest * kelvin);
-    const double ratio = longest / metres;
+    const double ratio = longest / nm;
     return std::pow(ratio, 5) * std::exp(x_longest - x) * std::expm1(-x_longest) / std::expm1(-x);
 }
 
@@ -67,6 +62,23 @@ Triple blackbody_xyz(double kelvin) {
         }
     }
     return {sum[0] / sum[1], 1, sum[2] / sum[1]};
+}
+
+const std::array<Spectrum, 3>& xyz_weights() {
+    static const std::array<Spectrum, 3> weights = [] {
+        double sum = 0;
+        for (const Triple& row : observer) {
+            sum += row[1];
+        }
+        std::array<Spectrum, 3> columns{};
+        for (std::size_t i = 0; i < spectrum_size; ++i) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                columns[k][i] = observer[i][k] / sum;
+            }
+        }
+        return columns;
+    }();
+    return weights;
 }
 
 } // namespace scc::lang

@@ -36,6 +36,9 @@ Value Evaluator::run(const code::BuiltinCall& node, Span span, const FramePtr& f
                    ? depends_on_surface(span, "this transform", "transforms are known before a ray is cast")
                    : depends_on_surface(span, "this argument", "this function takes what is known");
     }
+    if (!node.overload->takes_spectra && std::any_of(arguments.begin(), arguments.end(), has_spectra)) {
+        return refuse_spectra(span, "this function");
+    }
     locate(span);
     BuiltinRun run{math_, report_, span};
     return node.overload->run(run, arguments);
@@ -64,6 +67,10 @@ Value Evaluator::run(const code::ListCall& node, Span span, const FramePtr& fram
 Value Evaluator::sum(const std::vector<Value>& list, const Value& zero, Span span) {
     Value total = list.empty() ? zero : list[0];
     for (std::size_t i = 1; i < list.size() && step(span); ++i) {
+        if (has_spectra(total) &&
+            !takes_spectra(ast::BinaryOp::add, components(total), components(list[i]))) {
+            return refuse_spectra(span, "so long a sum");
+        }
         total = binary(math_, ast::BinaryOp::add, total, list[i]);
     }
     return stopped_ ? failed() : total;
@@ -113,6 +120,30 @@ Value Evaluator::run(const code::Call& node, Span span, const FramePtr& frame) {
         complete = complete && !is_error(arguments.back());
     }
     return complete ? call(*closure.function, closure.frame, std::move(arguments), span) : failed();
+}
+
+Value Evaluator::run(const code::ImageCall& node, Span span, const FramePtr& frame) {
+    const Value image = eval(*node.image, frame), place = eval(*node.uv, frame);
+    if (is_error(image) || is_error(place)) {
+        return failed();
+    }
+    const ThingPtr& thing = std::get<ThingPtr>(image.v);
+    const Components uv = components(place);
+    if (!is_constant(uv)) {
+        locate(span);
+        const auto channels = math_.builder()->image(thing, {uv[0], uv[1]});
+        if (!channels && recording()) {
+            cannot_record();
+        }
+        return channels ? compose(TypeKind::color, *channels) : failed();
+    }
+    if (images_ == nullptr) {
+        report_.report(Diag::not_supported_yet, span, "the content of an image here");
+        return failed();
+    }
+    const auto color = images_->color(thing, uv[0].value, uv[1].value);
+    return color ? compose(TypeKind::color, {Scalar{(*color)[0]}, Scalar{(*color)[1]}, Scalar{(*color)[2]}})
+                 : failed();
 }
 
 /// Both branches of a condition that depends on the surface are evaluated, so a call of the same function in

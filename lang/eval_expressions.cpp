@@ -51,6 +51,11 @@ Value Evaluator::depends_on_surface(Span span, std::string_view what, std::strin
     return failed();
 }
 
+Value Evaluator::refuse_spectra(Span span, std::string_view what) {
+    report_.report(Diag::spectral_color, span, what);
+    return failed();
+}
+
 Value Evaluator::eval(const Code& code, const FramePtr& frame) {
     if (!step(code.span)) {
         return failed();
@@ -169,6 +174,11 @@ Value Evaluator::operate(const code::Binary& node, const Value& left, const Valu
         report_.report(Diag::division_by_zero, node.right->span);
         return failed();
     }
+    if (has_spectra(left) || has_spectra(right)) {
+        if (!takes_spectra(node.op, components(left), components(right))) {
+            return refuse_spectra(span, "this operation");
+        }
+    }
     const Components divisor = divides ? components(right) : Components{};
     for (std::size_t i = 0; i < divisor.count; ++i) {
         math_.require(ScalarOp::ne, divisor.v[i], {0});
@@ -240,15 +250,14 @@ Value Evaluator::select(const Scalar& condition, const Value& yes, const Value& 
         return depends_on_surface(span, "this choice",
                                   "a surface chooses between numbers, vectors and colors");
     }
-    std::array<Scalar, 3> v{};
-    for (std::size_t i = 0; i < a.count; ++i) {
-        v[i] = math_.select(condition, a[i], b[i]);
-    }
-    return compose(a.kind, v);
+    return lang::select(math_, condition, a, b);
 }
 
-Value Evaluator::run(const code::Component& node, Span, const FramePtr& frame) {
+Value Evaluator::run(const code::Component& node, Span span, const FramePtr& frame) {
     const Components object = components(eval(*node.object, frame));
+    if (object.spectral) {
+        return refuse_spectra(span, "`.r .g .b`");
+    }
     return object.kind == TypeKind::error ? failed() : number(object.v[node.index]);
 }
 
@@ -256,12 +265,13 @@ Value Evaluator::run(const code::SurfaceInput& node, Span, const FramePtr& frame
     if (is_error(eval(*node.object, frame))) {
         return failed();
     }
+    const TypeKind kind = node.name == "uv" ? TypeKind::vec2 : TypeKind::vec3;
     std::array<Scalar, 3> v;
     constexpr std::array<std::string_view, 3> axes{".x", ".y", ".z"};
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < (kind == TypeKind::vec2 ? 2 : 3); ++i) {
         v[i] = {0, math_.builder()->input(std::string(node.name) + std::string(axes[i]))};
     }
-    return compose(TypeKind::vec3, v);
+    return compose(kind, v);
 }
 
 Value Evaluator::run(const code::Index& node, Span, const FramePtr& frame) {

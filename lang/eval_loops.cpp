@@ -213,7 +213,7 @@ std::optional<Value> Evaluator::recorded_element(const std::vector<Value>& list,
     std::array<std::vector<double>, 3> numbers;
     for (const Value& element : list) {
         const Components parts = components(element);
-        if (parts.count == 0 || parts.kind != first.kind || !lang::is_constant(parts)) {
+        if (parts.count == 0 || parts.kind != first.kind || parts.spectral || !lang::is_constant(parts)) {
             return std::nullopt;
         }
         for (std::size_t i = 0; i < parts.count; ++i) {

@@ -26,7 +26,7 @@ std::vector<ThingPtr> Evaluator::run(const BodyCode& file, const FramePtr& globa
 }
 
 Value Evaluator::run(const code::Construct& node, Span span, const FramePtr& frame) {
-    if (tracing()) {
+    if (tracing() && node.constructor->type != TypeKind::image) { // which is there to be looked up
         report_.report(Diag::shape_per_point, node.name_span, described(node.constructor->type));
         return failed();
     }

@@ -5,6 +5,7 @@
 #include "lang/code.h"
 #include "lang/components.h"
 #include "lang/frame.h"
+#include "lang/image_source.h"
 #include "lang/run_report.h"
 #include "lang/scalar_math.h"
 #include "lang/stack_guard.h"
@@ -24,8 +25,9 @@ struct CheckedFile;
 class Evaluator {
 public:
     /// With a builder, operations on unknown scalars go there, and no shapes can be built.
-    Evaluator(const EvaluationLimits& limits, RunReport& report, SymbolBuilder* builder = nullptr)
-        : limits_(limits), report_(report), math_(builder) {}
+    Evaluator(const EvaluationLimits& limits, RunReport& report, SymbolBuilder* builder = nullptr,
+              ImageSource* images = nullptr)
+        : limits_(limits), report_(report), math_(builder), images_(images) {}
 
     /// The things on the top level of a file.
     std::vector<ThingPtr> run(const BodyCode& file, const FramePtr& globals);
@@ -67,6 +69,8 @@ private:
     bool recording() const { return recording_ != nullptr; }
     bool has_unknowns() const { return math_.builder() != nullptr; }
     void locate(Span span);
+    /// Says that colours with spectra do not go there.
+    Value refuse_spectra(Span span, std::string_view what);
     Value depends_on_surface(Span span, std::string_view what, std::string_view rule);
 
     // eval_expressions.cpp
@@ -97,6 +101,7 @@ private:
     Value run(const code::BuiltinCall& node, Span span, const FramePtr& frame);
     Value run(const code::ListCall& node, Span span, const FramePtr& frame);
     Value run(const code::Call& node, Span span, const FramePtr& frame);
+    Value run(const code::ImageCall& node, Span span, const FramePtr& frame);
     Value filtered(const std::vector<Value>& list, const Closure& function, Span span);
     Value mapped(const std::vector<Value>& list, const Closure& function, Span span);
     Value sum(const std::vector<Value>& list, const Value& zero, Span span);
@@ -150,6 +155,7 @@ private:
     EvaluationLimits limits_;
     RunReport& report_;
     ScalarMath math_;
+    ImageSource* images_; ///< null: no image has a content
     StackGuard stack_;
     std::uint64_t steps_ = 0;
     std::uint64_t children_ = 0;

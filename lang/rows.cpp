@@ -8,10 +8,11 @@
 namespace scc::lang {
 namespace {
 
-/// Calls `visit(Scalar&)` for each scalar of a value that is its own; `thing(ThingPtr&)` and `list(ListPtr&)`
-/// for what it shares with others.
-template <class V, class Visit, class OnThing, class OnList>
-void for_parts(V& value, const Visit& visit, const OnThing& on_thing, const OnList& on_list) {
+/// Calls `visit(Scalar&)` for each scalar of a value that is its own; `on_thing(ThingPtr&)`,
+/// `on_list(ListPtr&)` and `on_spectra(SpectralPart&)` for what it shares with others.
+template <class V, class Visit, class OnThing, class OnList, class OnSpectra>
+void for_parts(V& value, const Visit& visit, const OnThing& on_thing, const OnList& on_list,
+               const OnSpectra& on_spectra) {
     std::visit(
         [&](auto& v) {
             using T = std::remove_cvref_t<decltype(v)>;
@@ -23,6 +24,11 @@ void for_parts(V& value, const Visit& visit, const OnThing& on_thing, const OnLi
                                  std::is_same_v<T, ColorValue>) {
                 for (auto& component : v.v) {
                     visit(component);
+                }
+                if constexpr (std::is_same_v<T, ColorValue>) {
+                    if (v.spectral) {
+                        on_spectra(v.spectral);
+                    }
                 }
             } else if constexpr (std::is_same_v<T, ThingPtr>) {
                 on_thing(v);
@@ -51,6 +57,11 @@ void for_each_scalar(const Value& value, const Visit& visit) {
             for (const Value& element : *list) {
                 for_each_scalar(element, visit);
             }
+        },
+        [&](const SpectralPart& spectra) {
+            for (const SpectralTerm& term : *spectra) {
+                visit(term.factor);
+            }
         });
 }
 
@@ -62,14 +73,13 @@ bool is_known(const Part& part) {
 }
 
 void replace(Value& value, const std::vector<Scalar>& with) {
+    const auto replace_scalar = [&](Scalar& scalar) {
+        if (!scalar.is_constant()) {
+            scalar = with[scalar.symbol];
+        }
+    };
     for_parts(
-        value,
-        [&](Scalar& scalar) {
-            if (!scalar.is_constant()) {
-                scalar = with[scalar.symbol];
-            }
-        },
-        [&](ThingPtr& thing) { thing = replaced(thing, with); },
+        value, replace_scalar, [&](ThingPtr& thing) { thing = replaced(thing, with); },
         [&](ListPtr& list) {
             if (!std::all_of(list->begin(), list->end(), [](const Value& v) { return is_known(v); })) {
                 auto copy = std::make_shared<std::vector<Value>>(*list);
@@ -78,6 +88,13 @@ void replace(Value& value, const std::vector<Scalar>& with) {
                 }
                 list = std::move(copy);
             }
+        },
+        [&](SpectralPart& spectra) {
+            auto copy = std::make_shared<std::vector<SpectralTerm>>(*spectra);
+            for (SpectralTerm& term : *copy) {
+                replace_scalar(term.factor);
+            }
+            spectra = std::move(copy);
         });
 }
 

@@ -1,6 +1,7 @@
 #include "lang/value.h"
 
 #include "lang/check.h"
+#include "lang/components.h"
 #include "lang/schema.h"
 
 #include <cmath>
@@ -81,6 +82,20 @@ std::string matrix_text(const TransformValue& transform) {
     return text + "0, 0, 0, 1])";
 }
 
+/// Of a spectrum, the colour that a light with it has.
+std::string color_text(const ColorValue& color) {
+    std::string text = "rgb" + tuple_text(color.v);
+    if (!color.spectral) {
+        return text;
+    }
+    ScalarMath math;
+    const Components parts = components({color});
+    if (!is_constant(parts)) {
+        return text + " + spectra";
+    }
+    return "spectrum of " + ("rgb" + tuple_text(transformed(math, rec709_from_xyz, xyz_of(math, parts)).v));
+}
+
 struct Printer {
     std::string& out;
 
@@ -93,7 +108,7 @@ struct Printer {
     void operator()(const std::string& text) const { out += quoted(text); }
     void operator()(const Vec2Value& v) const { out += tuple_text(v.v); }
     void operator()(const Vec3Value& v) const { out += tuple_text(v.v); }
-    void operator()(const ColorValue& c) const { out += "rgb" + tuple_text(c.v); }
+    void operator()(const ColorValue& c) const { out += color_text(c); }
     void operator()(const TransformValue& t) const { out += matrix_text(t); }
     void operator()(const RangeValue& r) const { out += number_text(r.begin) + ".." + number_text(r.end); }
     void operator()(const SurfaceValue&) const { out += "surface"; }

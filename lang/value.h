@@ -2,6 +2,7 @@
 
 #include "lang/ast.h"
 #include "lang/source.h"
+#include "lang/spectrum.h"
 #include "lang/type.h"
 
 #include <array>
@@ -54,8 +55,17 @@ struct Vec2Value {
 struct Vec3Value {
     std::array<Scalar, 3> v;
 };
+/// A part of a colour: a spectrum as often as the factor says.
+struct SpectralTerm {
+    std::shared_ptr<const Spectrum> spectrum;
+    Scalar factor;
+};
+/// Null where a colour has no spectrum. What is known stands in one term, whose factor is 1.
+using SpectralPart = std::shared_ptr<const std::vector<SpectralTerm>>;
+/// The sum of a plain colour and spectra.
 struct ColorValue {
     std::array<Scalar, 3> v; ///< linear light, Rec.709 primaries
+    SpectralPart spectral{};
 };
 /// An affine map of column vectors: x' = m[row][0..2] . x + m[row][3].
 struct TransformValue {
@@ -106,6 +116,12 @@ public:
     virtual std::uint32_t input(std::string_view name) = 0;
     /// `op` is the operator's name as in the runtime's operator table (add, mod, floor, select, ...).
     virtual std::uint32_t apply(std::string_view op, const std::vector<std::uint32_t>& operands) = 0;
+    /// The channels of an `image { }` at (u, v), if the builder can express that. A failure to read it is
+    /// reported by the builder.
+    virtual std::optional<std::array<Scalar, 3>> image(const ThingPtr& /*image*/,
+                                                       const std::array<Scalar, 2>& /*uv*/) {
+        return std::nullopt;
+    }
     /// Where the operations that follow were written.
     virtual void locate(Span /*span*/) {}
 

@@ -47,4 +47,19 @@ constexpr Bounds<R> transform_bounds(const Affine<R>& a, const Bounds<R>& b) {
     return {moved - extent, moved + extent};
 }
 
+/// Neither unbounded nor empty.
+template <class R>
+constexpr bool is_finite(const Bounds<R>& b) {
+    const Vec3<R> size = b.max - b.min;
+    const R most = infinity<R>();
+    return size.x >= 0 && size.y >= 0 && size.z >= 0 && size.x < most && size.y < most && size.z < most;
+}
+
+/// The same for one that may have no end, of which then nothing is known.
+template <class R>
+constexpr Bounds<R> transform_inside(const Affine<R>& a, const Bounds<R>& b) {
+    const Vec3<R> all{infinity<R>(), infinity<R>(), infinity<R>()};
+    return b.min.x > b.max.x ? Bounds<R>{} : is_finite(b) ? transform_bounds(a, b) : Bounds<R>{-all, all};
+}
+
 } // namespace scc::runtime

@@ -170,7 +170,7 @@ private:
         Ray<L> ray = to_object(primitive, ray_);
         ray.t_min = t;
         ray.t_max = choose(among, infinity<L>(), -infinity<L>());
-        const Crossing<L> next = cross_implicit(primitive.shape, ray, field_of(scene_, primitive.shape));
+        const Crossing<L> next = cross_shape(scene_, primitive.shape, ray);
         leaf.inside = Mask((among & next.outwards) | ((!among) & leaf.inside));
         leaf.next = choose(among, next.hit.t, leaf.next);
         leaf.part = choose(among, next.hit.part, leaf.part);

@@ -2,6 +2,7 @@
 
 #include "runtime/math/dual.h"
 #include "runtime/math/vec.h"
+#include "runtime/texture.h"
 
 #include <array>
 #include <cstddef>
@@ -15,7 +16,8 @@ template <class L>
 struct SurfacePoint {
     Vec3<L> p; ///< in object space
     Vec3<L> world;
-    Vec3<L> n; ///< unit geometric normal in world space
+    Vec3<L> n;    ///< unit geometric normal in world space
+    Vec2<L> uv{}; ///< where SceneTraits::uv
 };
 
 /// One step of a per-point function: a constant, an input, or a row of operators.def.
@@ -30,6 +32,9 @@ enum class Opcode : std::uint8_t {
     n_x,
     n_y,
     n_z,
+    uv_x,
+    uv_y,
+    image, ///< a channel of an image at (u, v)
 #define SCC_OPERATOR(name, arity, value, cpp, sdl, blender) name,
 #include "runtime/operators.def"
 #undef SCC_OPERATOR
@@ -38,15 +43,21 @@ enum class Opcode : std::uint8_t {
 template <class R>
 struct Instruction {
     Opcode code{};
-    std::array<std::uint32_t, 3> operands{}; ///< earlier instructions
+    std::array<std::uint32_t, 3> operands{}; ///< earlier instructions; of an image: u, v, channel_of()
     R constant{};
 };
+
+/// The third operand of an image's instruction; see FunctionProgram::images.
+constexpr std::uint32_t channel_of(std::uint32_t image, std::uint32_t channel) {
+    return 3 * image + channel;
+}
 
 /// A per-point function for the interpreter: instruction i writes register i.
 template <class R>
 struct FunctionProgram {
     std::vector<Instruction<R>> instructions;
     std::vector<std::uint32_t> results; ///< 1 register for a number, 3 for a colour
+    std::vector<ImageData> images{};    ///< whose texels live elsewhere
 };
 
 namespace detail {
@@ -77,6 +88,12 @@ L execute(const Instruction<R>& instruction, const SurfacePoint<L>& point, const
         return point.n.y;
     case Opcode::n_z:
         return point.n.z;
+    case Opcode::uv_x:
+        return point.uv.x;
+    case Opcode::uv_y:
+        return point.uv.y;
+    case Opcode::image: // by look_up
+        break;
 #define SCC_OPERATOR(name, arity, value, cpp, sdl, blender)                                                  \
     case Opcode::name:                                                                                       \
         return L(value);
@@ -84,6 +101,12 @@ L execute(const Instruction<R>& instruction, const SurfacePoint<L>& point, const
 #undef SCC_OPERATOR
     }
     return L(0);
+}
+
+template <class L, class R>
+L look_up(const FunctionProgram<R>& program, const Instruction<R>& instruction, const L* registers) {
+    const auto& [u, v, channel] = instruction.operands;
+    return image_channel(program.images[channel / 3], channel % 3, registers[u], registers[v]);
 }
 
 } // namespace detail
@@ -98,7 +121,10 @@ const L* run(const FunctionProgram<R>& program, const SurfacePoint<L>& point) {
         registers.resize(size);
     }
     for (std::size_t i = 0; i < size; ++i) {
-        registers[i] = detail::execute(program.instructions[i], point, registers.data());
+        const Instruction<R>& instruction = program.instructions[i];
+        registers[i] = instruction.code == Opcode::image
+                           ? detail::look_up(program, instruction, registers.data())
+                           : detail::execute(instruction, point, registers.data());
     }
     return registers.data();
 }

@@ -34,6 +34,20 @@ constexpr bool is_attenuated(const PointLight<R>& light) {
     return light.kc != 1 || light.kl != 0 || light.kq != 0;
 }
 
+/// The cosine of the angle between the cone's axis and the way to a surface point, to which s leads back.
+template <class L, class R>
+constexpr L cone_cosine(const SpotLight<R>& light, const Vec3<L>& to_light) {
+    return -dot(to_light, lanes<L>(light.axis));
+}
+/// The part of the light that goes there; for cosines above cos_outer.
+template <class L, class R>
+L cone_share(const SpotLight<R>& light, const L& cosine) {
+    const R width = light.cos_inner - light.cos_outer;
+    const L q = minimum((cosine - L(light.cos_outer)) / L(width), L(1)); // a width of 0: infinite, so 1
+    const L step = q * q * (3 - 2 * q);
+    return light.exponent == 0 ? step : step * unit_power(cosine, L(light.exponent));
+}
+
 /// (h.m / |h|)^shininess, not negative; `to_light` and `to_viewer` are unit vectors.
 template <class L>
 L highlight(const Vec3<L>& normal, const Vec3<L>& to_light, const Vec3<L>& to_viewer, const L& shininess) {

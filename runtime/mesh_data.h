@@ -24,9 +24,12 @@ struct MeshData {
     const float* triangles = nullptr;
     const float* normals = nullptr;                ///< x y z each, or null: flat
     const std::uint32_t* normal_indices = nullptr; ///< 3 per triangle, by its number in the source
+    const float* uvs = nullptr;                    ///< u v each, or null
+    const std::uint32_t* uv_indices = nullptr;     ///< 3 per triangle, by its number in the source
     std::uint32_t node_count = 0;
     std::uint32_t triangle_count = 0;
     std::uint32_t normal_count = 0;
+    std::uint32_t uv_count = 0;
     std::array<float, 3> min{}; ///< of all triangles, if there are any
     std::array<float, 3> max{};
 };
@@ -78,9 +81,12 @@ struct MeshStorage {
                 triangles.data(),
                 smooth ? normals.data() : nullptr,
                 smooth ? normal_indices.data() : nullptr,
+                nullptr,
+                nullptr,
                 static_cast<std::uint32_t>(nodes.size()),
                 triangles_in(triangles.size()),
                 static_cast<std::uint32_t>(normals.size() / 3),
+                0,
                 min,
                 max};
     }

@@ -29,9 +29,17 @@ template <class Shape>
 inline constexpr bool is_convex = requires(const Shape& s, const Ray<double>& ray) {
     s.stretch(ray);
 };
+/// Whether it has coordinates on its surface.
+template <class Shape>
+inline constexpr bool has_uv = is_mesh<Shape> || requires(const Shape& s, const Ray<double>& ray) {
+    s.uv(ray, ShapeHit<double>{}, Vec3<double>{});
+};
 /// Whether it can be a member of solids made of others.
 template <class Shape>
-inline constexpr bool is_solid = is_convex<Shape> || is_implicit<Shape>;
+inline constexpr bool is_solid = is_convex<Shape> || is_implicit<Shape> ||
+                                 requires(const Shape& s, const Ray<double>& ray) {
+    s.cross(ray);
+};
 
 /// f.operator()<kind>() for each kind of primitives that `admits` names, a function of nothing but the kind,
 /// until it returns true; whether it did. For the others f is not compiled.
@@ -148,6 +156,16 @@ constexpr ShapeHit<L> intersect_shape([[maybe_unused]] const S& scene, const Sha
     }
 }
 
+/// Where a solid that is not convex next begins or ends, in the shape's space.
+template <class S, class Shape, class L>
+Crossing<L> cross_shape([[maybe_unused]] const S& scene, const Shape& shape, const Ray<L>& ray) {
+    if constexpr (is_implicit<Shape>) {
+        return cross_implicit(shape, ray, field_of(scene, shape));
+    } else {
+        return shape.cross(ray);
+    }
+}
+
 namespace detail {
 
 template <class S, class Shape, class L>
@@ -177,17 +195,16 @@ Bounds<typename S::Real> shape_bounds(const S& scene, const Shape& shape) {
 /// Of a member.
 template <class S, class Shape>
 Bounds<typename S::Real> member_bounds(const S& scene, const Bare<Shape>& primitive) {
-    if constexpr (requires { primitive.shape.half_space_bounds(); }) {
-        return primitive.shape.half_space_bounds();
+    if constexpr (requires { primitive.shape.inside_bounds(); }) {
+        return primitive.shape.inside_bounds();
     } else {
         return shape_bounds(scene, primitive.shape);
     }
 }
 template <class S, class Shape, class R>
 Bounds<R> member_bounds(const S& scene, const Placed<Shape, R>& primitive) {
-    if constexpr (requires { primitive.shape.half_space_bounds(); }) {
-        const Vec3<R> all{infinity<R>(), infinity<R>(), infinity<R>()};
-        return {-all, all};
+    if constexpr (requires { primitive.shape.inside_bounds(); }) {
+        return transform_inside(primitive.world_from_object, primitive.shape.inside_bounds());
     } else {
         return transform_bounds(primitive.world_from_object, shape_bounds(scene, primitive.shape));
     }
@@ -232,6 +249,22 @@ Surface<L> surface_of(const S& scene, const Placed<Shape, R>& primitive, const R
         scene, primitive.shape, transform_ray(primitive.object_from_world, ray), hit, needed);
     object_point = object.point;
     return transform_surface(primitive.world_from_object, primitive.object_from_world, object);
+}
+
+/// The coordinates on the surface where the lanes in `needed` have hit this primitive at what surface_of gave
+/// as their object points.
+template <class S, class Primitive, class L>
+Vec2<L> uv_of([[maybe_unused]] const S& scene, const Primitive& primitive, const Ray<L>& ray,
+              const ShapeHit<L>& hit, [[maybe_unused]] const MaskOf<L>& needed,
+              [[maybe_unused]] const Vec3<L>& object_point) {
+    using Shape = decltype(primitive.shape);
+    if constexpr (is_mesh<Shape>) {
+        return mesh_uv(scene.meshes[primitive.shape.mesh], to_object(primitive, ray), hit, needed);
+    } else if constexpr (has_uv<Shape>) {
+        return primitive.shape.uv(to_object(primitive, ray), hit, object_point);
+    } else {
+        return {};
+    }
 }
 
 template <class S, class Shape>

@@ -29,6 +29,13 @@ struct ShapeHit {
     IndexOf<L> part{};
 };
 
+/// Where a ray passes through a solid's surface.
+template <class L>
+struct Crossing {
+    ShapeHit<L> hit;
+    MaskOf<L> outwards; ///< the ray leaves the solid there; without a hit: it is inside for good
+};
+
 /// The t from `near` to `far`; none where near > far or one of them is not a number.
 template <class L>
 struct Stretch {

@@ -57,11 +57,7 @@ public:
         }
         RenderResult result;
         for (const ThreadCounts& one : counts) {
-            result.rays.primary += one.rays.primary;
-            result.rays.shadow += one.rays.shadow;
-            result.rays.reflected += one.rays.reflected;
-            result.rays.undecided += one.rays.undecided;
-            result.rays.at_jumps += one.rays.at_jumps;
+            result.rays += one.rays;
         }
         result.complete = done_ == tiles_;
         return result;

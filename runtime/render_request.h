@@ -29,6 +29,15 @@ struct RayCounts {
     /// jump.
     std::uint64_t undecided = 0;
     std::uint64_t at_jumps = 0;
+
+    RayCounts& operator+=(const RayCounts& more) {
+        primary += more.primary;
+        shadow += more.shadow;
+        reflected += more.reflected;
+        undecided += more.undecided;
+        at_jumps += more.at_jumps;
+        return *this;
+    }
 };
 
 struct RenderResult {

@@ -30,13 +30,16 @@ struct SceneTraits {
     std::uint32_t placed_members = 0; ///< the same for members of solids
     bool point_lights = false;
     bool directional_lights = false;
-    bool attenuation = false;       ///< some point light has kl or kq other than 0, or kc other than 1
+    bool spot_lights = false;
+    bool rectangle_lights = false;
+    bool attenuation = false;       ///< some light has kl or kq other than 0, or kc other than 1
     bool separate_specular = false; ///< some light has Is other than Id
     bool specular = false;          ///< some material has a highlight
     bool emission = false;
     bool reflection = false;
     bool two_sided = false;      ///< some shape has a back material of its own
     bool functions = false;      ///< some material field is a per-point function
+    bool uv = false;             ///< some of them reads the coordinates on the surface
     bool smooth_normals = false; ///< some triangle or mesh has vertex normals
     bool shadows = false;
     bool accelerator = false; ///< enough bounded shapes that a hierarchy over them pays
@@ -46,8 +49,8 @@ struct SceneTraits {
     friend constexpr bool operator==(const SceneTraits&, const SceneTraits&) = default;
 };
 
-inline constexpr SceneTraits everything{~0U,  ~0U,  ~0U,  ~0U,  true, true, true, true, true,
-                                        true, true, true, true, true, true, true, true, true};
+inline constexpr SceneTraits everything{~0U,  ~0U,  ~0U,  ~0U,  true, true, true, true, true, true,
+                                        true, true, true, true, true, true, true, true, true, true, true};
 
 /// What every shape in a scene carries.
 struct Tag {
@@ -168,7 +171,10 @@ struct SceneBase {
     static constexpr std::array<CsgNode, 0> csg_nodes{};
     static constexpr std::array<PointLight<R>, 0> point_lights{};
     static constexpr std::array<DirectionalLight<R>, 0> directional_lights{};
+    static constexpr std::array<SpotLight<R>, 0> spot_lights{};
+    static constexpr std::array<RectangleLight<R>, 0> rectangle_lights{};
     static constexpr std::array<MeshData, 0> meshes{};
+    static constexpr bool reads_uv = true; ///< where traits.uv: some function does
     static constexpr Camera<R> camera{};
     static constexpr Rgb<R> ambient{};
     static constexpr Rgb<R> background{};
@@ -220,6 +226,7 @@ struct SceneBase {
 ///             }
 ///         }
 ///         static inline std::vector<MeshData> meshes; // only with meshes: read before rendering
+///         static inline std::vector<ImageData> images; // only with images: for the functions
 ///         Accelerator accelerator;         // only with traits.accelerator: filled by prepare(scene)
 ///     };
 ///
@@ -231,6 +238,8 @@ concept SceneModel = requires(const S& s, const SurfacePoint<typename S::Real>& 
     { s.materials[0] } -> std::convertible_to<Phong<typename S::Real>>;
     s.point_lights.size();
     s.directional_lights.size();
+    s.spot_lights.size();
+    s.rectangle_lights.size();
     s.meshes.size();
     { s.camera } -> std::convertible_to<Camera<typename S::Real>>;
     { s.ambient } -> std::convertible_to<Rgb<typename S::Real>>;
@@ -261,8 +270,11 @@ struct DynamicScene {
     std::vector<Phong<R>> materials;
     std::vector<PointLight<R>> point_lights;
     std::vector<DirectionalLight<R>> directional_lights;
+    std::vector<SpotLight<R>> spot_lights;
+    std::vector<RectangleLight<R>> rectangle_lights;
     std::vector<MeshData> meshes;
     std::vector<FunctionProgram<R>> functions; ///< Varying::function indexes it
+    bool reads_uv = false;                     ///< some function does
     Camera<R> camera;
     Rgb<R> ambient{};
     Rgb<R> background{};

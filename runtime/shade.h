@@ -68,9 +68,20 @@ public:
 
     Shader(const S& scene, const RenderSettings& settings, RayCounts& counts)
         : scene_(scene), depth_(settings.depth), shadows_(settings.shadows), counts_(counts) {
+        if constexpr (S::traits.rectangle_lights) {
+            for (const auto& light : scene.rectangle_lights) {
+                for_each_point(light, [&](const PointLight<R>& point) { grid_points_.push_back(point); });
+            }
+        }
         if constexpr (S::traits.shadows && !has_hierarchy<S>) {
             const auto balls = primitive_balls(scene);
             for (const auto& light : scene.point_lights) {
+                point_occluders_.emplace_back(balls, light);
+            }
+            for (const auto& light : scene.spot_lights) {
+                point_occluders_.emplace_back(balls, light);
+            }
+            for (const auto& light : grid_points_) {
                 point_occluders_.emplace_back(balls, light);
             }
             for (const auto& light : scene.directional_lights) {
@@ -190,6 +201,12 @@ private:
                 if constexpr (S::traits.functions) {
                     put(first, here, object_point, at.point.p);
                 }
+                if constexpr (S::traits.uv) {
+                    if (scene_.reads_uv) {
+                        put(first, here, uv_of(scene_, primitive, ray, hit.shape, here, object_point),
+                            at.point.uv);
+                    }
+                }
                 first = false;
             });
         if constexpr (S::traits.functions) {
@@ -266,8 +283,20 @@ private:
         if constexpr (S::traits.directional_lights) {
             for_each_light(scene_.directional_lights, add_light);
         }
+        std::size_t points = scene_.point_lights.size();
+        if constexpr (S::traits.spot_lights) {
+            for_each_light(scene_.spot_lights,
+                           [&](const auto& light, std::size_t index) { add_light(light, points + index); });
+            points += scene_.spot_lights.size();
+        }
+        if constexpr (S::traits.rectangle_lights) {
+            for (std::size_t i = 0; i < grid_points_.size(); ++i) {
+                add_light(grid_points_[i], points + i);
+            }
+        }
     }
 
+    /// `index`: in the list of occluders for its kind of light.
     template <class Light>
     void add(const Light& light, std::size_t index, Packs& packs, const std::array<Ray<L>, N>& rays) const {
         std::array<LightAt<L>, N> seen;
@@ -282,12 +311,15 @@ private:
             seen[i] = light_at(light, packs[i].at.surface.point);
             cosine[i] = dot(seen[i].to_light, packs[i].at.normal);
             lit[i] = lit[i] & (cosine[i] > 0);
+            if constexpr (requires { light.cos_outer; }) {
+                lit[i] = lit[i] & (cone_cosine(light, seen[i].to_light) > L(light.cos_outer));
+            }
             any_lit = any_lit || any(lit[i]);
         }
         if (!any_lit) {
             return;
         }
-        take_shadowed(light, index, packs, lit);
+        take_shadowed(source(light), index, packs, lit);
         for (std::size_t i = 0; i < packs.count; ++i) {
             if (any(lit[i])) {
                 add(light, packs[i], rays[i].dir, seen[i], cosine[i], lit[i]);
@@ -313,6 +345,9 @@ private:
             if (is_attenuated(light)) {
                 reflected = reflected / attenuation(light, seen.distance);
             }
+        }
+        if constexpr (requires { light.cos_outer; }) {
+            reflected = reflected * cone_share(light, cone_cosine(light, seen.to_light));
         }
         pack.light = choose(lit, pack.light + reflected, pack.light);
     }
@@ -352,6 +387,9 @@ private:
     const Occluders<DirectionalLight<R>>& occluders(const DirectionalLight<R>&, std::size_t index) const {
         return directional_occluders_[index];
     }
+    /// A light as its shadows know it.
+    static const PointLight<R>& source(const PointLight<R>& light) { return light; }
+    static const DirectionalLight<R>& source(const DirectionalLight<R>& light) { return light; }
     static Apex apex_of(const PointLight<R>&) { return Apex::end; }
     static Apex apex_of(const DirectionalLight<R>&) { return Apex::none; }
     static Ray<L> feeler(const PointLight<R>& light, const Surface<L>& surface) {
@@ -368,7 +406,9 @@ private:
     int depth_;
     bool shadows_;
     RayCounts& counts_;
-    std::vector<Occluders<PointLight<R>>> point_occluders_; ///< by the light's index, without a hierarchy
+    std::vector<PointLight<R>> grid_points_; ///< of all rectangle lights
+    /// Without a hierarchy: of point lights, spot lights and grid points.
+    std::vector<Occluders<PointLight<R>>> point_occluders_;
     std::vector<Occluders<DirectionalLight<R>>> directional_occluders_;
 };
 

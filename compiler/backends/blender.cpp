@@ -5,7 +5,10 @@
 #include "compiler/backends/blender_mesh.h"
 #include "compiler/backends/blender_needs.h"
 #include "compiler/backends/blender_scene.h"
+#include "compiler/resolve_uv.h"
 #include "compiler/writer.h"
+
+#include <optional>
 
 namespace scc::compiler {
 
@@ -38,7 +41,10 @@ import numpy as np
 
 } // namespace
 
-std::string emit_blender(const ir::Scene& scene, Ledger& ledger) {
+std::string emit_blender(const ir::Scene& whole, Ledger& ledger) {
+    const std::optional<ir::Scene> resolved =
+        whole.traits.uv ? std::optional(resolve_uv(whole)) : std::nullopt;
+    const ir::Scene& scene = resolved ? *resolved : whole;
     BlenderNeeds needs = blender_needs(scene);
     if (needs_packing(scene, needs)) {
         needs.features.emplace("packed");

@@ -5,6 +5,8 @@
 
 #include <array>
 #include <cassert>
+#include <map>
+#include <utility>
 
 namespace scc::compiler {
 
@@ -15,8 +17,8 @@ using ir::Op;
 
 class FunctionWriter {
 public:
-    FunctionWriter(Writer& out, const ir::Function& function)
-        : out_(out), function_(function), texts_(function.nodes.size()) {}
+    FunctionWriter(Writer& out, const ir::Function& function, std::vector<std::string> image_keys)
+        : out_(out), function_(function), image_keys_(std::move(image_keys)), texts_(function.nodes.size()) {}
 
     void write() {
         const std::vector<bool> needed = find_needed();
@@ -40,10 +42,8 @@ private:
         }
         for (std::size_t i = function_.nodes.size(); i-- > 0;) {
             const Node& node = function_.nodes[i];
-            if (needed[i] && node.kind == Node::Kind::apply) {
-                for (int k = 0; k < row(node.op).arity; ++k) {
-                    needed[node.operands[static_cast<std::size_t>(k)]] = true;
-                }
+            for (std::size_t k = 0; needed[i] && k < arity(node); ++k) {
+                needed[node.operands[k]] = true;
             }
         }
         return needed;
@@ -56,12 +56,25 @@ private:
             return python(node.constant);
         case Node::Kind::input:
             return std::string(name(node.input));
+        case Node::Kind::image:
+            return look_up(node);
         case Node::Kind::apply:
             break;
         }
         const std::string variable = fmt::format("t{}", index);
         out_.line("{} = {}", variable, applied(node));
         return variable;
+    }
+
+    /// One node looks all channels up.
+    std::string look_up(const Node& node) {
+        const auto [place, is_new] = lookups_.try_emplace({node.image, node.operands[0], node.operands[1]},
+                                                          fmt::format("i{}", lookups_.size()));
+        if (is_new) {
+            out_.line("{} = g.image({}, {}, {})", place->second, python(image_keys_[node.image]),
+                      texts_[node.operands[0]], texts_[node.operands[1]]);
+        }
+        return fmt::format("{}.{}", place->second, "xyz"[node.channel]);
     }
 
     static std::string math(std::string_view operation, const std::string& a, const std::string& b) {
@@ -131,6 +144,8 @@ private:
 
     Writer& out_;
     const ir::Function& function_;
+    std::vector<std::string> image_keys_; ///< of the function's images
+    std::map<std::array<std::uint32_t, 3>, std::string> lookups_;
     std::vector<std::string> texts_; ///< of each node: a variable, an input or a number
 };
 
@@ -144,7 +159,7 @@ std::vector<std::string_view> points_read(const ir::Function& function) {
     };
     constexpr std::array points{Point{"p", Input::p_x, Input::p_z},
                                 Point{"world", Input::world_x, Input::world_z},
-                                Point{"n", Input::n_x, Input::n_z}};
+                                Point{"n", Input::n_x, Input::n_z}, Point{"uv", Input::uv_x, Input::uv_y}};
     std::vector<std::string_view> names;
     for (const Point& point : points) {
         if (function.reads(point.first, point.last)) {
@@ -154,7 +169,8 @@ std::vector<std::string_view> points_read(const ir::Function& function) {
     return names;
 }
 
-void write_function(Writer& out, const ir::Function& function, const std::string& identifier) {
+void write_function(Writer& out, const ir::Function& function, const std::string& identifier,
+                    std::vector<std::string> image_keys) {
     std::string parameters = "g";
     for (const std::string_view point : points_read(function)) {
         parameters += fmt::format(", {}", point);
@@ -164,7 +180,7 @@ void write_function(Writer& out, const ir::Function& function, const std::string
              : function.results.size() == 3 ? "Color"
                                             : "Float");
     out.indent();
-    FunctionWriter(out, function).write();
+    FunctionWriter(out, function, std::move(image_keys)).write();
     out.dedent();
 }
 

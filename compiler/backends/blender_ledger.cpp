@@ -1,6 +1,8 @@
 #include "compiler/backends/blender_ledger.h"
 
+#include "compiler/backends/spectra.h"
 #include "compiler/ir/objects.h"
+#include "runtime/illumination.h"
 
 #include <fmt/core.h>
 
@@ -31,12 +33,14 @@ template <class Shape>
 Account account(const Shape&, bool mirror, bool smooth, bool pattern) {
     using namespace runtime;
     if constexpr (std::is_same_v<Shape, Sphere<double>> || std::is_same_v<Shape, Cylinder<double>> ||
-                  std::is_same_v<Shape, Cone<double>>) {
+                  std::is_same_v<Shape, Cone<double>> || std::is_same_v<Shape, Torus<double>>) {
         return {Fidelity::approximated,
                 "hit and normal exact, computed in the material; outline and shadow by a mesh; bound in "
                 "pixels, for a "
                 "radius of up to 500",
                 0.004};
+    } else if constexpr (std::is_same_v<Shape, Quadric<double>>) {
+        return {Fidelity::dropped, "Blender has no quadrics, and a mesh of it is not made yet"};
     } else if constexpr (std::is_same_v<Shape, Disc<double>>) {
         return {Fidelity::approximated, "a polygon; bound of its rim in pixels", 0.004};
     } else if constexpr (std::is_same_v<Shape, Plane<double>>) {
@@ -136,10 +140,23 @@ private:
         if (is_placed) {
             record_transform(object);
         }
+        if (std::any_of(solid.faces.begin(), solid.faces.end(), [&](const BlenderFace& face) {
+                return reads_uv(face.sides.front) || reads_uv(face.sides.back);
+            })) {
+            add({Fidelity::dropped, "the mesh of a solid has no coordinates on its surface"}, "uv",
+                object.path, object.span);
+        }
         const auto is_two_sided = [](const BlenderFace& face) { return face.sides.front != face.sides.back; };
         if (std::any_of(solid.faces.begin(), solid.faces.end(), is_two_sided)) {
             record_sides(object);
         }
+    }
+    bool reads_uv(std::uint32_t material) const {
+        const auto functions = ir::functions_of(scene_.materials[material].phong);
+        return std::any_of(functions.begin(), functions.end(), [&](std::int32_t index) {
+            return index != runtime::no_function &&
+                   scene_.functions[static_cast<std::size_t>(index)].reads(ir::Input::uv_x, ir::Input::uv_y);
+        });
     }
     static bool has_formula(const BlenderSolid& solid) {
         return std::any_of(solid.faces.begin(), solid.faces.end(), [](const BlenderFace& face) {
@@ -184,15 +201,47 @@ private:
                 return;
             }
         }
+        if (!scene_.functions[static_cast<std::size_t>(function)].images.empty()) {
+            add({Fidelity::approximated,
+                 fmt::format(
+                     "`{}` as Math nodes and images; bound: of what Cycles' filter of texels loses, in "
+                     "their range, as measured",
+                     name),
+                 1.5e-6},
+                fmt::format("per-point {}", field), material.name, material.span);
+            return;
+        }
         add({Fidelity::approximated,
              fmt::format("`{}` as Math nodes; bound: relative rounding of each operation", name), 6e-8},
             fmt::format("per-point {}", field), material.name, material.span);
     }
 
     void record(const ir::Light& light, const runtime::PointLight<double>& point) {
-        add({Fidelity::exact, "a point lamp for what it reaches, its light computed in the materials"},
-            "point_light", light.name, light.span);
-        if (point.kc != 1 || point.kl != 0 || point.kq != 0) {
+        record(light, point, "point_light",
+               {Fidelity::exact, "a point lamp for what it reaches, its light computed in the materials"});
+    }
+    /// Cosines are floats there, of which the fade in a narrow cone uses few digits.
+    void record(const ir::Light& light, const runtime::SpotLight<double>& spot) {
+        constexpr double rounding = 1.2e-7, steepest = 1.5;
+        const double width = spot.cos_inner - spot.cos_outer;
+        const std::string how = "a point lamp for what it reaches, its cone computed in the materials";
+        if (width > 1e-2) {
+            record(light, spot, "spot_light", {Fidelity::exact, how});
+        } else {
+            record(light, spot, "spot_light",
+                   {Fidelity::approximated, how + "; bound relative to the light in its middle",
+                    width > 0 ? std::min(1.0, rounding * steepest / width) : 1});
+        }
+    }
+    void record(const ir::Light& light, const runtime::RectangleLight<double>& rectangle) {
+        record(light, rectangle, "rectangle_light",
+               {Fidelity::exact,
+                fmt::format("{} x {} point lamps, one view layer each", rectangle.nu, rectangle.nv)});
+    }
+    void record(const ir::Light& light, const runtime::PointLight<double>& point, std::string word,
+                Account how) {
+        add(std::move(how), std::move(word), light.name, light.span);
+        if (is_attenuated(point)) {
             add({Fidelity::exact, "computed in the materials"}, "attenuation", light.name, light.span);
         }
         record_negative(light, point);
@@ -258,6 +307,7 @@ private:
 
 void record_blender(const ir::Scene& scene, const BlenderNeeds& needs, Ledger& ledger) {
     Recorder(scene, needs, ledger).record();
+    record_spectra(scene, ledger);
 }
 
 } // namespace scc::compiler

@@ -58,6 +58,15 @@ Packed packed(std::span<const std::uint32_t> values) {
     return result;
 }
 
+void write_packed(Writer& out, std::string_view name, const Packed& array) {
+    const std::string digits = base64(array.bytes);
+    out.line("{}=unpacked(\"{}\", \"\"\"", name, array.type);
+    for (std::size_t i = 0; i < digits.size(); i += line_width) {
+        out.raw_line(std::string_view(digits).substr(i, line_width));
+    }
+    out.line("\"\"\"),");
+}
+
 template <class T>
 void write_array(Writer& out, std::string_view name, std::span<const T> values) {
     if (values.empty()) {
@@ -71,26 +80,25 @@ void write_array(Writer& out, std::string_view name, std::span<const T> values) 
         out.line("{}=[{}],", name, list);
         return;
     }
-    const auto [type, bytes] = packed(values);
-    const std::string digits = base64(bytes);
-    out.line("{}=unpacked(\"{}\", \"\"\"", name, type);
-    for (std::size_t i = 0; i < digits.size(); i += line_width) {
-        out.raw_line(std::string_view(digits).substr(i, line_width));
-    }
-    out.line("\"\"\"),");
+    write_packed(out, name, packed(values));
 }
 
 bool is_long(const ir::Mesh& mesh) {
-    return std::max({mesh.positions.size(), mesh.normals.size(), mesh.indices.size()}) > longest_list;
+    return std::max({mesh.positions.size(), mesh.normals.size(), mesh.indices.size(), mesh.uvs.size()}) >
+           longest_list;
 }
 
-void write_entry(Writer& out, const ir::Mesh& mesh, std::span<const std::uint32_t> slots) {
+void write_entry(Writer& out, const ir::Mesh& mesh, bool with_uvs, std::span<const std::uint32_t> slots) {
     out.line("{}: dict(", python(mesh.name));
     out.indent();
     write_array(out, "points", mesh.positions);
     write_array(out, "indices", mesh.indices);
     write_array(out, "normals", mesh.normals);
     write_array(out, "normal_indices", mesh.normal_indices);
+    if (with_uvs) {
+        write_array(out, "uvs", mesh.uvs);
+        write_array(out, "uv_indices", mesh.uv_indices);
+    }
     write_array(out, "slots", slots);
     out.dedent();
     out.line("),");
@@ -115,10 +123,9 @@ std::string base64(std::string_view bytes) {
 }
 
 bool needs_packing(const ir::Scene& scene, const BlenderNeeds& needs) {
-    for (const auto& [path, solid] : needs.solids) {
-        if (is_long(solid.mesh)) {
-            return true;
-        }
+    const auto is_long_solid = [](const auto& entry) { return is_long(entry.second.mesh); };
+    if (!needs.images.empty() || std::any_of(needs.solids.begin(), needs.solids.end(), is_long_solid)) {
+        return true;
     }
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         if (needs.meshes[i] && is_long(scene.meshes[i])) {
@@ -139,12 +146,29 @@ void write_unpacking(Writer& out) {
     out.blank();
 }
 
-void write_mesh(Writer& out, const ir::Mesh& mesh) {
-    write_entry(out, mesh, {});
+void write_image(Writer& out, const ir::Image& image, const std::string& key) {
+    const runtime::ImageData& data = image.data;
+    out.line("{}: dict(size=({}, {}), wrap={}, filter={},", python(key), data.width, data.height,
+             data.wrap == runtime::Wrap::repeat ? "\"REPEAT\"" : "\"EXTEND\"",
+             data.filter == runtime::Filter::bilinear ? "\"Linear\"" : "\"Closest\"");
+    out.indent();
+    if (data.codes != nullptr) {
+        write_packed(out, "light_of_code", packed(std::span(data.decoded, 256)));
+        const std::string_view codes(reinterpret_cast<const char*>(data.codes), data.size());
+        write_packed(out, "texels", {"u1", std::string(codes)});
+    } else {
+        write_packed(out, "texels", packed(std::span(data.values, data.size())));
+    }
+    out.dedent();
+    out.line("),");
+}
+
+void write_mesh(Writer& out, const ir::Mesh& mesh, bool with_uvs) {
+    write_entry(out, mesh, with_uvs, {});
 }
 
 void write_solid(Writer& out, const BlenderSolid& solid) {
-    write_entry(out, solid.mesh, solid.slots);
+    write_entry(out, solid.mesh, false, solid.slots);
 }
 
 } // namespace scc::compiler

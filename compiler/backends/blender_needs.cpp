@@ -2,9 +2,9 @@
 
 #include "compiler/bounds.h"
 #include "compiler/ir/objects.h"
+#include "runtime/illumination.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace scc::compiler {
@@ -20,14 +20,9 @@ constexpr int most_bounces = 1024;
 // A bounce that can add no more than this share is left out.
 constexpr double least_share = 1e-8;
 
-std::array<std::int32_t, 6> functions_of(const Phong<double>& p) {
-    return {p.ambient.function,  p.diffuse.function, p.specular.function,
-            p.emission.function, p.reflect.function, p.shininess.function};
-}
-
 template <class Wanted>
 bool some_function(const ir::Scene& scene, std::uint32_t material, Wanted wanted) {
-    const auto functions = functions_of(scene.materials[material].phong);
+    const auto functions = ir::functions_of(scene.materials[material].phong);
     return std::any_of(functions.begin(), functions.end(), [&](std::int32_t index) {
         return index != runtime::no_function && wanted(scene.functions[static_cast<std::size_t>(index)]);
     });
@@ -74,7 +69,8 @@ template <class Shape>
 MirrorView sees_itself(const Shape& shape, const Vec3<double>& eye) {
     using namespace runtime;
     if constexpr (std::is_same_v<Shape, Mesh<double>> || std::is_same_v<Shape, Csg<double>> ||
-                  std::is_same_v<Shape, Implicit<double>>) {
+                  std::is_same_v<Shape, Implicit<double>> || std::is_same_v<Shape, Torus<double>> ||
+                  std::is_same_v<Shape, Quadric<double>>) {
         return {true, true};
     } else if constexpr (std::is_same_v<Shape, Triangle<double>>) {
         return {shape.smooth, shape.smooth};
@@ -266,6 +262,11 @@ private:
             want_formula(face);
         }
     }
+    void add(const ir::Object& object, const runtime::Torus<double>&) {
+        want("torus");
+        add_curved(object);
+    }
+    void add(const ir::Object&, const runtime::Quadric<double>&) {} // dropped
     void add(const ir::Object& object, const runtime::Triangle<double>&) {
         want("triangle");
         want(is_smooth(object.shape, scene_) ? "smooth" : "flat");
@@ -277,11 +278,15 @@ private:
         needs_.meshes[mesh.mesh] = true;
     }
 
-    void add(const runtime::PointLight<double>& light) {
+    void add(const runtime::PointLight<double>& light) { // a rectangle light is many
         want("point");
-        if (light.kc != 1 || light.kl != 0 || light.kq != 0) {
+        if (is_attenuated(light)) {
             want("attenuation");
         }
+    }
+    void add(const runtime::SpotLight<double>& light) {
+        add(static_cast<const runtime::PointLight<double>&>(light));
+        want("spot");
     }
     void add(const runtime::DirectionalLight<double>&) { want("directional"); }
 
@@ -292,10 +297,23 @@ private:
         if (is_present(phong.emission)) {
             want("emission");
         }
-        for (const std::int32_t function : functions_of(phong)) {
+        for (const std::int32_t function : ir::functions_of(phong)) {
             if (function != runtime::no_function) {
                 needs_.functions[static_cast<std::size_t>(function)] = true;
                 want("function");
+                add(scene_.functions[static_cast<std::size_t>(function)]);
+            }
+        }
+    }
+
+    void add(const ir::Function& function) {
+        if (function.reads(Input::uv_x, Input::uv_y)) {
+            want("uv");
+        }
+        for (const std::shared_ptr<const ir::Image>& image : function.images) {
+            want("image");
+            if (std::find(needs_.images.begin(), needs_.images.end(), image.get()) == needs_.images.end()) {
+                needs_.images.push_back(image.get());
             }
         }
     }
@@ -304,9 +322,7 @@ private:
         runtime::Bounds<double> box = world_bounds(scene_);
         box.add(scene_.camera.eye);
         for (const ir::Light& light : scene_.lights) {
-            if (const auto* point = std::get_if<runtime::PointLight<double>>(&light.light)) {
-                box.add(point->position);
-            }
+            std::visit([&](const auto& l) { include(l, box); }, light.light);
         }
         ir::for_each_shape(scene_, [&]<class Shape>(const Shape& shape, const runtime::Affine<double>& place,
                                                     const runtime::Sides&) {
@@ -318,6 +334,15 @@ private:
         const double extent = length(box.max - needs_.center);
         needs_.extent = extent > 0 ? extent : 1;
     }
+
+    static void include(const runtime::PointLight<double>& light, runtime::Bounds<double>& box) {
+        box.add(light.position);
+    }
+    static void include(const runtime::RectangleLight<double>& light, runtime::Bounds<double>& box) {
+        box.add(light.position);
+        box.add(light.position + (light.edge_u + light.edge_v));
+    }
+    static void include(const runtime::DirectionalLight<double>&, runtime::Bounds<double>&) {}
 
     static Vec3<double> foot(const runtime::Plane<double>& plane, const runtime::Affine<double>& place,
                              const Vec3<double>& eye) {

@@ -17,7 +17,8 @@ struct BlenderNeeds {
     std::vector<bool> fields; ///< of the functions, those that are a solid's formula
     std::vector<bool> meshes;
     BlenderSolids solids;
-    int bounces = 0;    ///< mirror bounces that can be seen
+    std::vector<const ir::Image*> images; ///< of those functions, each once
+    int bounces = 0;                      ///< mirror bounces that can be seen
     double cut_off = 0; ///< of the radiance that arrives at the last bounce, what share later ones could add
     runtime::Vec3<double> center; ///< of what is bounded, the lights and the camera
     double extent = 1;            ///< their distance from `center` at most

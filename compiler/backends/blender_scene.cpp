@@ -5,6 +5,8 @@
 #include "compiler/backends/blender_python.h"
 #include "compiler/ir/objects.h"
 
+#include <map>
+
 namespace scc::compiler {
 
 namespace {
@@ -24,12 +26,10 @@ public:
         write_constants();
         write_camera();
         write_lights();
+        write_images();
         write_functions();
         write_fields();
         write_materials();
-        if (needs_packing(scene_, needs_)) {
-            write_unpacking(out_);
-        }
         write_meshes();
         write_solids();
         write_objects();
@@ -69,11 +69,20 @@ private:
         out_.line("LIGHTS = {{");
         out_.indent();
         for (const ir::Light& light : scene_.lights) {
-            std::string text = std::visit([&](const auto& l) { return place(l) + colors(l); }, light.light);
-            out_.line("{}: dict({}),", python(light.name), text);
+            std::visit([&](const auto& l) { write_light(light.name, l); }, light.light);
         }
         out_.dedent();
         out_.line("}}");
+    }
+    template <class Light>
+    void write_light(const std::string& name, const Light& light) {
+        out_.line("{}: dict({}{}),", python(name), place(light), colors(light));
+    }
+    void write_light(const std::string& name, const runtime::RectangleLight<double>& light) {
+        int number = 0;
+        for_each_point(light, [&](const runtime::PointLight<double>& point) {
+            write_light(fmt::format("{}[{}]", name, number++), point);
+        });
     }
     static std::string place(const runtime::PointLight<double>& light) {
         std::string text = "type=\"POINT\", position=" + python(light.position);
@@ -83,6 +92,11 @@ private:
         }
         return text;
     }
+    static std::string place(const runtime::SpotLight<double>& light) {
+        return place(static_cast<const runtime::PointLight<double>&>(light)) +
+               fmt::format(", axis={}, cone=({}, {}, {})", python(light.axis), python(light.cos_inner),
+                           python(light.cos_outer), python(light.exponent));
+    }
     static std::string place(const runtime::DirectionalLight<double>& light) {
         return "type=\"SUN\", to_light=" + python(light.to_light);
     }
@@ -90,6 +104,25 @@ private:
     static std::string colors(const Light& light) {
         const std::string diffuse = ", diffuse=" + python(light.diffuse);
         return light.diffuse == light.specular ? diffuse : diffuse + ", specular=" + python(light.specular);
+    }
+
+    void write_images() {
+        if (needs_packing(scene_, needs_)) {
+            write_unpacking(out_);
+        }
+        if (!has("image")) {
+            return;
+        }
+        Identifiers identifiers("");
+        out_.line("IMAGES = {{");
+        out_.indent();
+        for (const ir::Image* image : needs_.images) {
+            const std::string key = identifiers.make(image->name);
+            image_keys_.emplace(image, key);
+            write_image(out_, *image, key);
+        }
+        out_.dedent();
+        out_.line("}}");
     }
 
     void write_functions() {
@@ -102,7 +135,11 @@ private:
                 keys_[i] = identifiers.make(scene_.functions[i].name);
                 out_.blank();
                 out_.blank();
-                write_function(out_, scene_.functions[i], keys_[i]);
+                std::vector<std::string> images;
+                for (const std::shared_ptr<const ir::Image>& image : scene_.functions[i].images) {
+                    images.push_back(image_keys_.at(image.get()));
+                }
+                write_function(out_, scene_.functions[i], keys_[i], std::move(images));
             }
         }
         out_.blank();
@@ -134,7 +171,7 @@ private:
                 const std::string& key = field_keys_[i] = identifiers.make(scene_.functions[i].name);
                 out_.blank();
                 out_.blank();
-                write_function(out_, *field_for_nodes(scene_.functions[i]), key);
+                write_function(out_, *field_for_nodes(scene_.functions[i]), key, {});
                 table += fmt::format("{}\"{}\": {}", table.empty() ? "" : ", ", key, key);
             }
         }
@@ -184,7 +221,7 @@ private:
         out_.indent();
         for (std::size_t i = 0; i < scene_.meshes.size(); ++i) {
             if (needs_.meshes[i]) {
-                write_mesh(out_, scene_.meshes[i]);
+                write_mesh(out_, scene_.meshes[i], has("uv"));
             }
         }
         out_.dedent();
@@ -297,6 +334,12 @@ private:
                            face.formula == Formula::ball ? "ball" : "round", python(face.radius),
                            python(face.slope), text);
     }
+    /// `tube`: its radius as a part of the circle's.
+    static std::string described(const runtime::Torus<double>& t) {
+        return fmt::format("type=\"torus\", center={}, axis={}, major={}, tube={}", python(t.center),
+                           python(t.axis), python(t.major), python(t.minor / t.major));
+    }
+    static std::string described(const runtime::Quadric<double>&) { return ""; } // dropped
     std::string described(const runtime::Mesh<double>& m) const {
         return fmt::format("type=\"mesh\", mesh={}", python(scene_.meshes[m.mesh].name));
     }
@@ -304,6 +347,7 @@ private:
     Writer& out_;
     const ir::Scene& scene_;
     const BlenderNeeds& needs_;
+    std::map<const ir::Image*, std::string> image_keys_;
     std::vector<std::string> keys_;       ///< of each function: its name in Python
     std::vector<std::string> field_keys_; ///< of each field
 };

@@ -131,6 +131,8 @@ private:
         using Kind = SmoothSurface<double>::Kind;
         switch (surface.kind) {
         case Kind::plane:
+        case Kind::torus:
+        case Kind::quadric:
             return Formula::none;
         case Kind::ball:
             return Formula::ball;

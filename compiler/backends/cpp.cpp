@@ -39,6 +39,10 @@ std::string literal(bool v) {
     return v ? "true" : "false";
 }
 template <class R>
+std::string literal(const runtime::Vec2<R>& v) {
+    return fmt::format("{{{}, {}}}", literal(v.x), literal(v.y));
+}
+template <class R>
 std::string literal(const Vec3<R>& v) {
     return fmt::format("{{{}, {}, {}}}", literal(v.x), literal(v.y), literal(v.z));
 }
@@ -79,6 +83,16 @@ template <class R>
 std::string literal(const runtime::PointLight<R>& l) {
     return fmt::format("{{{}, {}, {}, {}, {}, {}}}", literal(l.position), literal(l.diffuse),
                        literal(l.specular), literal(l.kc), literal(l.kl), literal(l.kq));
+}
+template <class R>
+std::string literal(const runtime::SpotLight<R>& l) {
+    return fmt::format("{{{}, {}, {}, {}, {}}}", literal(static_cast<const runtime::PointLight<R>&>(l)),
+                       literal(l.axis), literal(l.cos_inner), literal(l.cos_outer), literal(l.exponent));
+}
+template <class R>
+std::string literal(const runtime::RectangleLight<R>& l) {
+    return fmt::format("{{{}, {}, {}, {}, {}}}", literal(static_cast<const runtime::PointLight<R>&>(l)),
+                       literal(l.edge_u), literal(l.edge_v), l.nu, l.nv);
 }
 template <class R>
 std::string literal(const runtime::DirectionalLight<R>& l) {
@@ -187,9 +201,13 @@ private:
     template <class T>
     void table(const std::string& row_type, const std::string& name, const std::vector<T>& rows);
     void read_member(const std::string& name);
+    bool has_bands() const { return !scene_.bands.empty(); }
+    void colors();
+    template <class T>
+    void colored_table(const std::string& row_type, const std::string& name, const std::vector<T>& rows);
     void traits();
     void primitives();
-    std::string node_spelling(const ir::Node& node, std::string_view point);
+    std::string node_spelling(const ir::Function& function, const ir::Node& node, std::string_view point);
     /// One function of the scene type for those in `which`; its parameter is the point's name in the bodies.
     void functions(const std::vector<std::size_t>& which, const char* result_type, const char* name,
                    const char* parameter, std::string_view point);
@@ -197,6 +215,7 @@ private:
     void field_functions();
     std::vector<bool> are_fields() const;
     void meshes();
+    void images();
     void scene_type();
     void program();
 
@@ -210,6 +229,8 @@ private:
     host::ValuesWriter values_;
     std::vector<std::string> reads_; // statements of `load`, in the order of the values
     std::vector<R> function_constants_;
+    std::vector<const ir::Image*> images_ = ir::images_of(scene_);
+    std::vector<std::string> colored_; // tables of which each band has its own
     Writer out_;
 };
 
@@ -316,7 +337,8 @@ std::vector<bool> Emitter<R>::are_fields() const {
 }
 
 template <class R>
-std::string Emitter<R>::node_spelling(const ir::Node& node, std::string_view point) {
+std::string Emitter<R>::node_spelling(const ir::Function& function, const ir::Node& node,
+                                      std::string_view point) {
     switch (node.kind) {
     case ir::Node::Kind::constant:
         if (in_code_) {
@@ -326,6 +348,12 @@ std::string Emitter<R>::node_spelling(const ir::Node& node, std::string_view poi
         return fmt::format("L(function_constants[{}])", function_constants_.size() - 1);
     case ir::Node::Kind::input:
         return fmt::format("{}{}", point, ir::name(node.input));
+    case ir::Node::Kind::image: {
+        const ir::Image* image = function.images[node.image].get();
+        return fmt::format("image_channel(images[{}], {}, v{}, v{})",
+                           std::find(images_.begin(), images_.end(), image) - images_.begin(), node.channel,
+                           node.operands[0], node.operands[1]);
+    }
     case ir::Node::Kind::apply:
         break;
     }
@@ -372,7 +400,7 @@ void Emitter<R>::functions(const std::vector<std::size_t>& which, const char* re
         out_.line("case {}: {{{}", i, in_code_ ? " // " + comment_text(function.name) : "");
         out_.indent();
         for (std::size_t k = 0; k < function.nodes.size(); ++k) {
-            out_.line("const L v{} = {};", k, node_spelling(function.nodes[k], point));
+            out_.line("const L v{} = {};", k, node_spelling(function, function.nodes[k], point));
         }
         std::string returned;
         for (const std::uint32_t result : function.results) {
@@ -396,16 +424,8 @@ void Emitter<R>::scene_type() {
     out_.line("using R = {};", real);
     traits();
     primitives();
-    table("Phong<R>", "materials", materials_of<R>(scene_));
-    if (scene_.traits.point_lights || any_scene_) {
-        table("PointLight<R>", "point_lights", lights_of<runtime::PointLight, R>(scene_));
-    }
-    if (scene_.traits.directional_lights || any_scene_) {
-        table("DirectionalLight<R>", "directional_lights", lights_of<runtime::DirectionalLight, R>(scene_));
-    }
+    colors();
     member("Camera<R>", "camera", convert(scene_.camera, R{}));
-    member("Rgb<R>", "ambient", convert(scene_.ambient, R{}));
-    member("Rgb<R>", "background", convert(scene_.background, R{}));
     material_functions(3, "Rgb<L>", "color_function");
     material_functions(1, "L", "number_function");
     field_functions();
@@ -415,11 +435,70 @@ void Emitter<R>::scene_type() {
         read_member("function_constants");
     }
     meshes();
+    images();
     if (scene_.traits.accelerator || any_scene_) {
         out_.raw_line("Accelerator accelerator;");
     }
     out_.dedent();
     out_.raw_line("};");
+}
+
+/// Materials, lights and what surrounds the scene. Of a scene with spectra, those of the group of wavelengths
+/// that `take_band` was called for.
+template <class R>
+void Emitter<R>::colors() {
+    colored_table("Phong<R>", "materials", materials_of<R>(scene_));
+    if (scene_.traits.point_lights || any_scene_) {
+        colored_table("PointLight<R>", "point_lights", lights_of<runtime::PointLight, R>(scene_));
+    }
+    if (scene_.traits.directional_lights || any_scene_) {
+        colored_table("DirectionalLight<R>", "directional_lights",
+                      lights_of<runtime::DirectionalLight, R>(scene_));
+    }
+    if (scene_.traits.spot_lights || any_scene_) {
+        colored_table("SpotLight<R>", "spot_lights", lights_of<runtime::SpotLight, R>(scene_));
+    }
+    if (scene_.traits.rectangle_lights || any_scene_) {
+        colored_table("RectangleLight<R>", "rectangle_lights", lights_of<runtime::RectangleLight, R>(scene_));
+    }
+    if (!has_bands()) {
+        member("Rgb<R>", "ambient", convert(scene_.ambient, R{}));
+        member("Rgb<R>", "background", convert(scene_.background, R{}));
+        return;
+    }
+    out_.raw_line("static inline Rgb<R> ambient, background;");
+    out_.raw_line("static inline std::span<const BandGroup<R>> bands;");
+    const std::vector<runtime::BandGroup<R>> bands = bands_of<R>(scene_);
+    values_.add(std::span<const runtime::BandGroup<R>>(bands));
+    read_member("bands");
+    out_.raw_line("static void take_band(std::size_t band) {");
+    out_.indent();
+    for (const std::string& name : colored_) {
+        out_.line("take_rows(all_{}, band, bands.size(), {});", name, name);
+    }
+    out_.raw_line("ambient = bands[band].ambient;");
+    out_.raw_line("background = bands[band].background;");
+    out_.dedent();
+    out_.raw_line("}");
+}
+
+template <class R>
+template <class T>
+void Emitter<R>::colored_table(const std::string& row_type, const std::string& name,
+                               const std::vector<T>& rows) {
+    if (!has_bands()) {
+        table(row_type, name, rows);
+        return;
+    }
+    const std::size_t own = rows.size() / scene_.bands.size();
+    const std::string type = any_scene_ || own > most_constant_rows
+                                 ? fmt::format("std::span<const {}>", row_type)
+                                 : fmt::format("std::array<{}, {}>", row_type, own);
+    out_.line("static inline {} {};", type, name);
+    out_.line("static inline std::span<const {}> all_{};", row_type, name);
+    values_.add(std::span<const T>(rows));
+    read_member("all_" + name);
+    colored_.push_back(name);
 }
 
 template <class R>
@@ -432,10 +511,28 @@ void Emitter<R>::meshes() {
     for (const ir::Mesh& mesh : scene_.meshes) {
         built.push_back(build_mesh(mesh, {.threads = host::core_count()}));
         data.push_back(built.back().data);
+        if (!scene_.traits.uv) {
+            data.back().uvs = nullptr;
+            data.back().uv_count = 0;
+        }
     }
     out_.raw_line("static inline std::vector<MeshData> meshes;");
     values_.add(data);
     read_member("meshes");
+}
+
+template <class R>
+void Emitter<R>::images() {
+    if (images_.empty()) {
+        return;
+    }
+    std::vector<runtime::ImageData> data;
+    for (const ir::Image* image : images_) {
+        data.push_back(image->data);
+    }
+    out_.raw_line("static inline std::vector<ImageData> images;");
+    values_.add(data);
+    read_member("images");
 }
 
 template <class R>
@@ -447,13 +544,26 @@ void Emitter<R>::program() {
     for (const std::string& read : reads_) {
         out_.raw_line(read);
     }
+    if (has_bands()) {
+        out_.raw_line("scene.take_band(0);");
+    }
     out_.raw_line("prepare(scene);");
     out_.dedent();
     out_.raw_line("}");
     out_.blank();
     out_.raw_line("RenderResult draw(const RenderRequest& request, Image& image) {");
     out_.indent();
-    out_.raw_line("return render(scene, request, image);");
+    if (has_bands()) {
+        out_.raw_line("return render_bands(scene.bands, request, image, [](std::size_t band, const auto& "
+                      "one, Image& to) {");
+        out_.indent();
+        out_.raw_line("scene.take_band(band);");
+        out_.raw_line("return render(scene, one, to);");
+        out_.dedent();
+        out_.raw_line("});");
+    } else {
+        out_.raw_line("return render(scene, request, image);");
+    }
     out_.dedent();
     out_.raw_line("}");
     out_.blank();
@@ -502,6 +612,9 @@ CppProgram Emitter<R>::emit() {
     out_ = Writer();
     for (const std::string_view header : program_headers) {
         out_.line("#include {}", header);
+    }
+    if (has_bands()) {
+        out_.raw_line("#include \"runtime/bands.h\"");
     }
     if (parameters_ != nullptr) {
         out_.raw_line("#include \"compiler/redefine.h\"");

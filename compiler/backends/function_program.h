@@ -21,14 +21,22 @@ runtime::FunctionProgram<R> program_of(const ir::Function& function) {
                                                             static_cast<int>(node.input));
             break;
         case ir::Node::Kind::apply:
-            instruction.code = static_cast<runtime::Opcode>(static_cast<int>(runtime::Opcode::n_z) + 1 +
+            instruction.code = static_cast<runtime::Opcode>(static_cast<int>(runtime::Opcode::image) + 1 +
                                                             static_cast<int>(node.op));
             instruction.operands = node.operands;
+            break;
+        case ir::Node::Kind::image:
+            instruction.code = runtime::Opcode::image;
+            instruction.operands = {node.operands[0], node.operands[1],
+                                    runtime::channel_of(node.image, node.channel)};
             break;
         }
         program.instructions.push_back(instruction);
     }
     program.results = function.results;
+    for (const std::shared_ptr<const ir::Image>& image : function.images) {
+        program.images.push_back(image->data);
+    }
     return program;
 }
 

@@ -28,7 +28,8 @@ std::vector<Range> node_ranges(const ir::Function& function, const InputRanges& 
     std::array<Wide, ir::input_count> x;
     std::transform(inputs.begin(), inputs.end(), x.begin(),
                    [](const Range& range) { return Wide(range.min, range.max); });
-    const runtime::SurfacePoint<Wide> point{{x[0], x[1], x[2]}, {x[3], x[4], x[5]}, {x[6], x[7], x[8]}};
+    const runtime::SurfacePoint<Wide> point{
+        {x[0], x[1], x[2]}, {x[3], x[4], x[5]}, {x[6], x[7], x[8]}, {x[9], x[10]}};
     const auto program = program_of<long double>(function);
     const Wide* bounds = run(program, point);
     std::vector<Range> ranges(function.nodes.size());

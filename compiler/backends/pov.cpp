@@ -5,8 +5,10 @@
 #include "compiler/backends/pov_material.h"
 #include "compiler/backends/pov_shape.h"
 #include "compiler/backends/pov_text.h"
+#include "compiler/backends/spectra.h"
 #include "compiler/field_bounds.h"
 #include "compiler/ir/objects.h"
+#include "compiler/resolve_uv.h"
 #include "compiler/writer.h"
 
 #include <fmt/core.h>
@@ -23,14 +25,16 @@ namespace {
 
 class PovExport {
 public:
-    PovExport(const ir::Scene& scene, Ledger& ledger, const lang::SourceSet* sources)
+    PovExport(const ir::Scene& scene, Ledger& ledger, ExportFiles& files, const lang::SourceSet* sources)
         : scene_(scene), ledger_(ledger), sources_(sources), frame_(choose_frame(scene)),
-          in_union_(needs_object_union(scene)), materials_(scene, functions_, textures_, ledger) {}
+          in_union_(needs_object_union(scene)), materials_(scene, files, functions_, textures_, ledger),
+          files_(files) {}
 
     std::string run() {
         emit_camera();
         emit_objects();
         emit_lights(scene_, frame_, lights_, ledger_);
+        record_spectra(scene_, ledger_);
         Writer file;
         emit_settings(file);
         append(file, "camera", camera_);
@@ -65,6 +69,9 @@ private:
         file.line("// {}, exported by scc", comment_text(scene_.name));
         file.line("//   povray +ITHIS.pov +OIMAGE.png +W{} +H{} +FN16 File_Gamma=1.0 -A -D", settings.width,
                   settings.height);
+        if (!files_.files.empty()) {
+            file.line("// in the folder of this file, where its images are.");
+        }
         file.line("#version 3.7;");
         emit_frame_comment(file);
         file.blank();
@@ -247,7 +254,9 @@ private:
             const std::string moved = !use.varies    ? ""
                                       : use.in_world ? frame_.texture_transform()
                                                      : in_object;
-            lines.push_back({fmt::format("{} {{ {}{} }}", keyword, use.texture, moved), use.in_world});
+            lines.push_back(
+                {fmt::format("{} {{ {}{}{} }}", keyword, use.by_uv ? "uv_mapping " : "", use.texture, moved),
+                 use.in_world});
         };
         const auto [front, back] = object.sides;
         add("texture", shape.reversed ? back : front);
@@ -318,7 +327,7 @@ private:
     void declare_mesh_of(const ir::Object& object) {
         const auto* mesh = std::get_if<runtime::Mesh<double>>(&object.shape);
         if (mesh != nullptr && declared_meshes_.insert(mesh->mesh).second) {
-            declare_mesh(scene_.meshes[mesh->mesh], mesh_names_[mesh->mesh], meshes_);
+            declare_mesh(scene_.meshes[mesh->mesh], mesh_names_[mesh->mesh], scene_.traits.uv, meshes_);
         }
     }
 
@@ -368,6 +377,7 @@ private:
     bool in_union_;
     Writer camera_, functions_, textures_, meshes_, objects_, lights_;
     PovMaterials materials_;
+    const ExportFiles& files_;
     Identifiers mesh_identifiers_{"mesh_"};
     std::vector<std::string> mesh_names_;
     std::set<std::uint32_t> declared_meshes_;
@@ -375,12 +385,13 @@ private:
 
 } // namespace
 
-std::string emit_pov(const ir::Scene& scene, Ledger& ledger) {
-    return PovExport(scene, ledger, nullptr).run();
-}
-
-std::string emit_pov(const ir::Scene& scene, Ledger& ledger, const lang::SourceSet& sources) {
-    return PovExport(scene, ledger, &sources).run();
+std::string emit_pov(const ir::Scene& scene, Ledger& ledger, ExportFiles& files,
+                     const lang::SourceSet* sources) {
+    if (!scene.traits.uv) {
+        return PovExport(scene, ledger, files, sources).run();
+    }
+    const ir::Scene resolved = resolve_uv(scene);
+    return PovExport(resolved, ledger, files, sources).run();
 }
 
 } // namespace scc::compiler

@@ -18,27 +18,11 @@ constexpr std::uint32_t deepest_expression = 40;
 constexpr std::size_t most_parameters = 56;
 constexpr std::uint32_t most_levels = 200;
 
-/// How often the operator's SDL spelling writes the operand.
-std::uint64_t occurrences(const Node& node, std::size_t operand) {
-    const std::string_view spelling = ir::row(node.op).sdl;
-    const char placeholder[] = {'{', static_cast<char>('0' + operand), '}'};
-    std::uint64_t count = 0;
-    for (auto at = spelling.find(placeholder, 0, 3); at != std::string_view::npos;
-         at = spelling.find(placeholder, at + 1, 3)) {
-        ++count;
-    }
-    return count;
-}
-
-std::size_t arity(const Node& node) {
-    return node.kind == Node::Kind::apply ? static_cast<std::size_t>(ir::row(node.op).arity) : 0;
-}
-
 } // namespace
 
-PovExpression::PovExpression(const ir::Function& function, std::uint32_t result)
-    : function_(function), result_(result), needed_(result + 1), shared_(result + 1), level_(result + 1),
-      last_use_(result + 1) {
+PovExpression::PovExpression(const ir::Function& function, std::uint32_t result, const Words& words)
+    : function_(function), words_(words), result_(result), needed_(result + 1), shared_(result + 1),
+      level_(result + 1), last_use_(result + 1) {
     needed_[result] = true;
     for (std::uint32_t i = result + 1; i-- > 0;) {
         for (std::size_t k = 0; needed_[i] && k < arity(function.nodes[i]); ++k) {
@@ -62,11 +46,28 @@ bool PovExpression::reads(ir::Input first, ir::Input last) const {
 std::string_view PovExpression::unspoken() const {
     for (std::uint32_t i = 0; i <= result_; ++i) {
         const Node& node = function_.nodes[i];
-        if (needed_[i] && node.kind == Node::Kind::apply && ir::row(node.op).sdl.empty()) {
+        if (needed_[i] && node.kind == Node::Kind::apply && ir::row(node.op).sdl.empty() &&
+            !words_.functions.contains(i)) {
             return ir::row(node.op).name;
         }
     }
     return "";
+}
+
+/// How often the node's spelling writes the operand.
+std::uint64_t PovExpression::occurrences(std::uint32_t index, std::size_t operand) const {
+    const Node& node = function_.nodes[index];
+    if (node.kind == Node::Kind::image || words_.functions.contains(index)) {
+        return 1;
+    }
+    const std::string_view spelling = ir::row(node.op).sdl;
+    const char placeholder[] = {'{', static_cast<char>('0' + operand), '}'};
+    std::uint64_t count = 0;
+    for (auto at = spelling.find(placeholder, 0, 3); at != std::string_view::npos;
+         at = spelling.find(placeholder, at + 1, 3)) {
+        ++count;
+    }
+    return count;
 }
 
 void PovExpression::choose_shared() {
@@ -87,13 +88,13 @@ void PovExpression::choose_shared() {
     uses[result_] = 1;
     for (std::uint32_t i = result_ + 1; i-- > 0;) {
         const Node& node = function_.nodes[i];
-        if (!needed_[i] || node.kind != Node::Kind::apply) {
+        if (!needed_[i] || arity(node) == 0) {
             shared_[i] = false;
             continue;
         }
         shared_[i] = shared_[i] || (uses[i] > 1 && size[i] > small_expression);
         for (std::size_t k = 0; k < arity(node); ++k) {
-            uses[node.operands[k]] += occurrences(node, k) * (shared_[i] ? 1 : uses[i]);
+            uses[node.operands[k]] += occurrences(i, k) * (shared_[i] ? 1 : uses[i]);
         }
     }
 }
@@ -138,6 +139,9 @@ bool PovExpression::fits() const {
 
 std::string PovExpression::input(ir::Input input) const {
     static constexpr std::string_view axes[] = {"x", "y", "z"};
+    if (input >= ir::Input::uv_x) {
+        return std::string(axes[static_cast<std::size_t>(input) - static_cast<std::size_t>(ir::Input::uv_x)]);
+    }
     const std::string_view axis = axes[static_cast<std::size_t>(input) % 3];
     const bool second = input >= ir::Input::world_x && reads_p();
     return fmt::format("{}{}", second ? "w" : "", axis);
@@ -154,12 +158,18 @@ std::string PovExpression::applied(std::uint32_t index) const {
         return node.constant < 0 ? fmt::format("({})", number(node.constant)) : number(node.constant);
     case Node::Kind::input:
         return input(node.input);
+    case Node::Kind::image:
+        return words_.images[node.image]->channel(node.channel, text(node.operands[0]),
+                                                  text(node.operands[1]));
     case Node::Kind::apply:
         break;
     }
     std::string operands[3];
     for (std::size_t k = 0; k < arity(node); ++k) {
         operands[k] = text(node.operands[k]);
+    }
+    if (const auto word = words_.functions.find(index); word != words_.functions.end()) {
+        return fmt::format("{}({}, {}, {})", word->second, operands[0], operands[1], operands[2]);
     }
     return fmt::format(fmt::runtime(ir::row(node.op).sdl), operands[0], operands[1], operands[2]);
 }

@@ -42,7 +42,8 @@ double plane_distance(const runtime::Plane<double>& plane, const Affine<double>&
            length(transform_normal(object_from_world, n));
 }
 
-/// The stretch that matters: around the eye and all bounded objects, else down to the farthest plane.
+/// The stretch that matters: around the eye, all bounded objects and the origins of other unbounded ones,
+/// else down to the farthest plane.
 double extent_of(const ir::Scene& scene, Bounds<double>& around) {
     double planes = 0;
     around.add(scene.camera.eye);
@@ -50,8 +51,10 @@ double extent_of(const ir::Scene& scene, Bounds<double>& around) {
         scene, [&]<class Shape>(const Shape& shape, const Affine<double>& place, const runtime::Sides&) {
             if constexpr (std::is_same_v<Shape, runtime::Plane<double>>) {
                 planes = std::max(planes, plane_distance(shape, place, scene.camera.eye));
+            } else if (const auto bounds = object_bounds(shape, scene)) {
+                around.add(transform_bounds(place, *bounds));
             } else {
-                around.add(transform_bounds(place, *object_bounds(shape, scene)));
+                around.add(translation_of(place));
             }
         });
     const double bounded = size_of(around);
@@ -156,6 +159,19 @@ InputRanges input_ranges(const ir::Object& object, const ir::Scene& scene) {
         set(ir::Input::world_x, transform_bounds(object.world_from_object, *bounds));
     }
     set(ir::Input::n_x, {{-1, -1, -1}, {1, 1, 1}});
+    if (const auto* mesh = std::get_if<runtime::Mesh<double>>(&object.shape)) {
+        const std::span<const float> uvs = scene.meshes[mesh->mesh].uvs;
+        for (const ir::Input input : {ir::Input::uv_x, ir::Input::uv_y}) {
+            // Between the corners it is interpolated.
+            Range range{0, 0};
+            for (std::size_t i = input == ir::Input::uv_x ? 0 : 1; i < uvs.size(); i += 2) {
+                const double value = uvs[i];
+                range = i < 2 ? Range{value, value}
+                              : Range{std::min(range.min, value), std::max(range.max, value)};
+            }
+            ranges[static_cast<std::size_t>(input)] = range;
+        }
+    }
     return ranges;
 }
 

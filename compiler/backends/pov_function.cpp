@@ -132,19 +132,59 @@ double excess(const ir::Function& function, std::uint32_t node, const InputRange
     for (int sample = 0; sample < 4096; ++sample) {
         std::array<double, ir::input_count> x{};
         for (std::size_t i = 0; i < x.size(); ++i) {
-            constexpr double primes[] = {0.7548776662, 0.5698402910, 0.8191725134, 0.6710436067, 0.5497004779,
-                                         0.4502995221, 0.8566748838, 0.7338918566, 0.6287067210};
+            constexpr double primes[] = {0.7548776662, 0.5698402910, 0.8191725134, 0.6710436067,
+                                         0.5497004779, 0.4502995221, 0.8566748838, 0.7338918566,
+                                         0.6287067210, 0.5385972572, 0.4613935681};
             const double low = std::max(inputs[i].min, -1000.0), high = std::min(inputs[i].max, 1000.0);
             const double fraction = sample * primes[i] - std::floor(sample * primes[i]);
             x[i] = low + fraction * (high - low);
         }
-        const runtime::SurfacePoint<double> point{{x[0], x[1], x[2]}, {x[3], x[4], x[5]}, {x[6], x[7], x[8]}};
+        const runtime::SurfacePoint<double> point{
+            {x[0], x[1], x[2]}, {x[3], x[4], x[5]}, {x[6], x[7], x[8]}, {x[9], x[10]}};
         const double value = run(program, point)[node];
         if (!std::isnan(value)) {
             largest = std::max({largest, range.min - value, value - range.max});
         }
     }
     return std::min(largest, 1e30);
+}
+
+/// Which nodes give whole numbers only.
+std::vector<bool> are_whole(const ir::Function& function) {
+    std::vector<bool> whole;
+    for (const Node& node : function.nodes) {
+        bool is_whole = node.kind == Node::Kind::constant && node.constant == std::floor(node.constant);
+        if (node.kind == Node::Kind::apply) {
+            const auto operand = [&](std::size_t k) { return whole[node.operands[k]]; };
+            switch (node.op) {
+            case Op::floor:
+            case Op::ceil:
+                is_whole = true;
+                break;
+            case Op::neg:
+            case Op::abs:
+            case Op::square:
+                is_whole = operand(0);
+                break;
+            case Op::add:
+            case Op::sub:
+            case Op::mul:
+            case Op::mod:
+            case Op::min:
+            case Op::max:
+                is_whole = operand(0) && operand(1);
+                break;
+            case Op::select:
+                is_whole = operand(1) && operand(2);
+                break;
+            default:
+                is_whole = is_truth(node.op);
+                break;
+            }
+        }
+        whole.push_back(is_whole);
+    }
+    return whole;
 }
 
 std::string map_point(const runtime::Affine<double>& a) {
@@ -165,6 +205,50 @@ std::string map_point(const runtime::Affine<double>& a) {
 
 } // namespace
 
+void PovFunctions::cover(std::int32_t index, const InputRanges& inputs) {
+    std::optional<InputRanges>& all = inputs_[static_cast<std::size_t>(index)];
+    if (!all) {
+        all = inputs;
+        return;
+    }
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        (*all)[i] = {std::min((*all)[i].min, inputs[i].min), std::max((*all)[i].max, inputs[i].max)};
+    }
+}
+
+const PovExpression::Words& PovFunctions::words(std::int32_t index) {
+    std::optional<PovExpression::Words>& words = words_[static_cast<std::size_t>(index)];
+    if (words) {
+        return *words;
+    }
+    words.emplace();
+    const ir::Function& function = functions_[static_cast<std::size_t>(index)];
+    for (const std::shared_ptr<const ir::Image>& image : function.images) {
+        words->images.push_back(&images_.declare(*image));
+    }
+    const std::vector<bool> whole = are_whole(function);
+    std::vector<Range> ranges;
+    for (std::uint32_t i = 0; i < function.nodes.size(); ++i) {
+        const Node& node = function.nodes[i];
+        if (node.kind != Node::Kind::apply || (node.op != Op::noise && node.op != Op::random)) {
+            continue;
+        }
+        const auto& [a, b, c] = node.operands;
+        if (node.op == Op::random && !(whole[a] && whole[b] && whole[c])) {
+            continue;
+        }
+        if (ranges.empty()) {
+            ranges = node_ranges(function, inputs_[static_cast<std::size_t>(index)].value_or(InputRanges{}));
+        }
+        const std::string name = lattices_.declare(fmt::format("{}_{}", function.name, row(node.op).name),
+                                                   node.op, {ranges[a], ranges[b], ranges[c]});
+        if (!name.empty()) {
+            words->functions.emplace(i, name);
+        }
+    }
+    return *words;
+}
+
 const PovFunctions::Declared& PovFunctions::declare(std::int32_t index, std::uint32_t node,
                                                     std::string_view suffix) {
     const auto [entry, is_new] = declared_.try_emplace({index, node});
@@ -173,14 +257,17 @@ const PovFunctions::Declared& PovFunctions::declare(std::int32_t index, std::uin
         return declared;
     }
     const ir::Function& function = functions_[static_cast<std::size_t>(index)];
-    const PovExpression expression(function, node);
+    const PovExpression expression(function, node, words(index));
     declared.reads_p = expression.reads_p();
     declared.reads_world = expression.reads_world();
+    declared.reads_uv = expression.reads_uv();
     if (expression.reads_normal()) {
         declared.obstacle = "POV-Ray's functions cannot read the normal n";
     } else if (!expression.unspoken().empty()) {
-        declared.obstacle = expression.unspoken() == "random" ? "POV-Ray's functions have no `random`"
-                                                              : "POV-Ray's functions have another `noise`";
+        declared.obstacle =
+            fmt::format("its `{}` would need a table that is unbounded or has more than {} points{}",
+                        expression.unspoken(), PovLattices::most_points,
+                        expression.unspoken() == "random" ? ", or is not that of whole numbers" : "");
     } else if (!expression.fits()) {
         declared.obstacle = "it needs more parameters or deeper nesting than POV-Ray's functions have";
     } else {
@@ -196,8 +283,11 @@ PovFunctions::Scaled PovFunctions::scaled(std::int32_t index, std::uint32_t node
     const Range cut{std::clamp(whole.min, -place.largest, place.largest),
                     std::clamp(whole.max, -place.largest, place.largest)};
     const Declared& declared = declare(index, node, suffix);
-    if (declared.name.empty()) {
-        outcome = {Fidelity::dropped, fmt::format("drawn with its mean value: {}", declared.obstacle), 0};
+    const std::string_view obstacle = declared.reads_uv && !place.uv_obstacle.empty() ? place.uv_obstacle
+                                      : declared.name.empty()                         ? declared.obstacle
+                                                                                      : "";
+    if (!obstacle.empty()) {
+        outcome = {Fidelity::dropped, fmt::format("drawn with its mean value: {}", obstacle), 0};
         const double middle = std::clamp((cut.min + cut.max) / 2, 0.0, 1.0);
         return {"", middle, middle};
     }
@@ -231,6 +321,19 @@ std::pair<Paint, Outcome> PovFunctions::paint(std::int32_t index, const Place& p
     Paint paint;
     paint.function = index;
     Outcome outcome{Fidelity::exact, "as an SDL function", 0};
+    if (!words(index).functions.empty()) {
+        outcome = {
+            Fidelity::approximated,
+            "as an SDL function, `noise` and `random` as tables of 32 bits; bound of one of their values",
+            PovLattices::error};
+    }
+    for (const std::shared_ptr<const ir::Image>& image : function.images) {
+        if (const double error = images_.declare(*image).error; error > 0) {
+            outcome = {Fidelity::approximated,
+                       "as an SDL function; bound of what 16 bits make of an image's values",
+                       std::max(outcome.bound, error)};
+        }
+    }
     std::vector<double> middle;
     if (const auto one = one_variable(function)) {
         const Scaled t = scaled(index, one->t, "", place, outcome);

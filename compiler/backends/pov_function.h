@@ -2,11 +2,15 @@
 
 #include "compiler/backends/function_range.h"
 #include "compiler/backends/ledger.h"
+#include "compiler/backends/pov_expression.h"
+#include "compiler/backends/pov_image.h"
+#include "compiler/backends/pov_lattice.h"
 #include "compiler/ir/scene.h"
 #include "compiler/writer.h"
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -40,8 +44,12 @@ struct Outcome {
 /// Per-point functions as SDL functions, each declared when it is first used.
 class PovFunctions {
 public:
-    PovFunctions(const std::vector<ir::Function>& functions, Writer& out)
-        : functions_(functions), out_(out) {}
+    PovFunctions(const std::vector<ir::Function>& functions, ExportFiles& files, Writer& out)
+        : functions_(functions), inputs_(functions.size()), words_(functions.size()), images_(files, out),
+          lattices_(files, out), out_(out) {}
+
+    /// The function is called with inputs in these ranges, too. To be said before it is used.
+    void cover(std::int32_t function, const InputRanges& inputs);
 
     /// Where a function is used.
     struct Place {
@@ -49,13 +57,15 @@ public:
         double largest = 0; ///< values beyond are cut where the function's own bounds are wider
         /// From a texture's x, y, z, which are the function's p; null: they are its world point as well.
         const runtime::Affine<double>* world_from_object = nullptr;
+        /// Why a function that reads uv cannot be written here; empty: its texture is mapped by uv.
+        std::string_view uv_obstacle{};
     };
     std::pair<Paint, Outcome> paint(std::int32_t function, const Place& place);
 
     struct Declared {
         std::string name; ///< empty: it cannot be written, for this reason:
-        std::string_view obstacle;
-        bool reads_p = false, reads_world = false;
+        std::string obstacle;
+        bool reads_p = false, reads_world = false, reads_uv = false;
     };
     /// The field of an implicit surface, as a function of x, y, z.
     const Declared& field(std::int32_t function) {
@@ -68,11 +78,16 @@ private:
         double low = 0, high = 0;
     };
 
+    const PovExpression::Words& words(std::int32_t function);
     const Declared& declare(std::int32_t function, std::uint32_t node, std::string_view suffix);
     Scaled scaled(std::int32_t function, std::uint32_t node, std::string_view suffix, const Place& place,
                   Outcome& outcome);
 
     const std::vector<ir::Function>& functions_;
+    std::vector<std::optional<InputRanges>> inputs_;         ///< of each function
+    std::vector<std::optional<PovExpression::Words>> words_; ///< of each function
+    PovImages images_;
+    PovLattices lattices_;
     Writer& out_;
     Identifiers names_{"f_"};
     std::map<std::pair<std::int32_t, std::uint32_t>, Declared> declared_;

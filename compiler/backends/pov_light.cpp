@@ -4,11 +4,13 @@
 #include "compiler/backends/pov_text.h"
 #include "compiler/backends/surface_distance.h"
 #include "compiler/ir/objects.h"
+#include "runtime/illumination.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace scc::compiler {
 
@@ -44,21 +46,56 @@ public:
 
 private:
     void write(const ir::Light& light, const runtime::PointLight<double>& point) {
-        const double s = frame_.scale;
         const DistanceRange range = surface_distances(scene_, point.position);
-        const FadeSum sum =
-            fade_lights({point.kc, point.kl / s, point.kq / (s * s)}, s * range.near, s * range.far);
+        const FadeSum sum = fades(point, range);
+        write(point, sum, "");
+        note(light, "point_light", {}, "light_source");
+        note_attenuation(light, "point_light", point, sum, range);
+        note_specular(light, point.diffuse, point.specular);
+    }
+
+    void write(const ir::Light& light, const runtime::SpotLight<double>& spot) {
+        const auto degrees = [](double cosine) { return std::acos(cosine) * 180 / std::numbers::pi; };
+        const DistanceRange range = surface_distances(scene_, spot.position);
+        const FadeSum sum = fades(spot, range);
+        write(spot, sum,
+              fmt::format(" spotlight point_at {} radius {} falloff {} tightness {}",
+                          pov_vector(frame_.point(spot.position) + spot.axis),
+                          number(degrees(spot.cos_inner)), number(degrees(spot.cos_outer)),
+                          number(spot.exponent)));
+        note(light, "spot_light", {}, "spotlight");
+        note_attenuation(light, "spot_light", spot, sum, range);
+        note_specular(light, spot.diffuse, spot.specular);
+    }
+
+    /// All points fade alike, as fitted for the distances from any point of the rectangle.
+    void write(const ir::Light& light, const runtime::RectangleLight<double>& rectangle) {
+        const runtime::Vec3<double> middle = 0.5 * (rectangle.edge_u + rectangle.edge_v);
+        const double reach = 0.5 * std::max(length(rectangle.edge_u + rectangle.edge_v),
+                                            length(rectangle.edge_u - rectangle.edge_v));
+        DistanceRange range = surface_distances(scene_, rectangle.position + middle);
+        range = {std::max(0.0, range.near - reach), range.far + reach};
+        const FadeSum sum = fades(rectangle, range);
+        for_each_point(rectangle, [&](const runtime::PointLight<double>& point) { write(point, sum, ""); });
+        note(light, "rectangle_light", {}, fmt::format("{} x {} light_sources", rectangle.nu, rectangle.nv));
+        note_attenuation(light, "rectangle_light", rectangle, sum, range);
+        note_specular(light, rectangle.diffuse, rectangle.specular);
+    }
+
+    FadeSum fades(const runtime::PointLight<double>& point, const DistanceRange& range) const {
+        const double s = frame_.scale;
+        return fade_lights({point.kc, point.kl / s, point.kq / (s * s)}, s * range.near, s * range.far);
+    }
+
+    void write(const runtime::PointLight<double>& point, const FadeSum& sum, const std::string& cone) {
         for (const Fade& fade : sum.lights) {
-            Source source{pov_vector(frame_.point(point.position)), ""};
+            Source source{pov_vector(frame_.point(point.position)), cone};
             if (fade.power != 0) {
-                source.tail =
+                source.tail +=
                     fmt::format(" fade_distance {} fade_power {}", number(fade.distance), number(fade.power));
             }
             write(source, fade.gain, point.diffuse, point.specular);
         }
-        note(light, "point_light", {}, "light_source");
-        note_attenuation(light, point, sum, range);
-        note_specular(light, point.diffuse, point.specular);
     }
 
     void write(const ir::Light& light, const runtime::DirectionalLight<double>& sun) {
@@ -98,17 +135,19 @@ private:
         ledger_.push_back({fidelity, std::move(feature), light.name, light.span, std::move(how), bound});
     }
 
-    void note_attenuation(const ir::Light& light, const runtime::PointLight<double>& point,
-                          const FadeSum& sum, const DistanceRange& range) {
-        if (point.kl == 0 && point.kq == 0 && point.kc == 1) {
+    void note_attenuation(const ir::Light& light, std::string_view word,
+                          const runtime::PointLight<double>& point, const FadeSum& sum,
+                          const DistanceRange& range) {
+        if (!is_attenuated(point)) {
             return;
         }
+        const std::string feature = fmt::format("{} attenuation", word);
         if (sum.exact) {
-            note(light, "point_light attenuation", Fidelity::exact,
+            note(light, feature, Fidelity::exact,
                  fmt::format("sum of {} lights with fade_distance and fade_power", sum.lights.size()));
             return;
         }
-        note(light, "point_light attenuation", Fidelity::approximated,
+        note(light, feature, Fidelity::approximated,
              fmt::format(
                  "sum of {} lights with fade_distance and fade_power, fitted for distances from {:.6g} to "
                  "{:.6g}; bound relative to the light's intensity at the nearer",

@@ -1,6 +1,7 @@
 #include "compiler/backends/pov_material.h"
 
 #include "compiler/backends/pov_frame.h"
+#include "compiler/backends/pov_shape.h"
 #include "compiler/ir/objects.h"
 
 #include <fmt/core.h>
@@ -15,14 +16,11 @@ using runtime::Affine;
 
 namespace {
 
-std::array<std::int32_t, 6> functions_of(const runtime::Phong<double>& phong) {
-    return {phong.ambient.function,  phong.diffuse.function, phong.specular.function,
-            phong.emission.function, phong.reflect.function, phong.shininess.function};
-}
-
 /// Reflectances and emissions are colours that one can see; exponents grow further.
 constexpr double largest_color = 8;
 constexpr double largest_shininess = 1e5;
+constexpr std::string_view uv_and_point =
+    "POV-Ray maps a texture by uv or by the point, and this material reads both";
 /// Stands for one that POV-Ray cannot calculate.
 constexpr double usual_shininess = 32;
 
@@ -34,8 +32,9 @@ void include(InputRanges& all, const InputRanges& more) {
 
 } // namespace
 
-PovMaterials::PovMaterials(const ir::Scene& scene, Writer& functions, Writer& textures, Ledger& ledger)
-    : scene_(scene), functions_(scene.functions, functions), textures_(textures), ledger_(ledger),
+PovMaterials::PovMaterials(const ir::Scene& scene, ExportFiles& files, Writer& functions, Writer& textures,
+                           Ledger& ledger)
+    : scene_(scene), functions_(scene.functions, files, functions), textures_(textures), ledger_(ledger),
       ranges_(scene.materials.size()), noted_(scene.materials.size()) {
     constexpr double inf = std::numeric_limits<double>::infinity();
     for (InputRanges& ranges : ranges_) {
@@ -45,19 +44,27 @@ PovMaterials::PovMaterials(const ir::Scene& scene, Writer& functions, Writer& te
         const InputRanges ranges = input_ranges(object, scene);
         include(ranges_[object.sides.front], ranges);
         include(ranges_[object.sides.back], ranges);
-    });
-}
-
-bool PovMaterials::reads(std::uint32_t material, ir::Input first, ir::Input last) const {
-    const auto functions = functions_of(scene_.materials[material].phong);
-    return std::any_of(functions.begin(), functions.end(), [&](std::int32_t f) {
-        return f != runtime::no_function && scene_.functions[static_cast<std::size_t>(f)].reads(first, last);
+        for (const std::uint32_t material : {object.sides.front, object.sides.back}) {
+            for (const std::int32_t function : ir::functions_of(scene.materials[material].phong)) {
+                if (function != runtime::no_function) {
+                    functions_.cover(function, ranges);
+                }
+            }
+        }
+        if (const auto* implicit = std::get_if<runtime::Implicit<double>>(&object.shape)) {
+            const runtime::Bounds<double> box = pov_field_box(implicit->within);
+            InputRanges inputs;
+            inputs[0] = {box.min.x, box.max.x};
+            inputs[1] = {box.min.y, box.max.y};
+            inputs[2] = {box.min.z, box.max.z};
+            functions_.cover(implicit->field, inputs);
+        }
     });
 }
 
 PovMaterials::Use PovMaterials::use(std::uint32_t material, const ir::Object& object) {
-    const bool in_world = reads(material, ir::Input::world_x, ir::Input::world_z);
-    const bool in_object = reads(material, ir::Input::p_x, ir::Input::p_z);
+    const bool in_world = ir::material_reads(scene_, material, ir::Input::world_x, ir::Input::world_z);
+    const bool in_object = ir::material_reads(scene_, material, ir::Input::p_x, ir::Input::p_z);
     const std::string& name = scene_.materials[material].name;
     if (in_world && in_object && !(object.world_from_object == Affine<double>{})) {
         return declare(material, fmt::format("{}_of_{}", name, object.path), &object.world_from_object);
@@ -82,7 +89,8 @@ PovMaterials::Use PovMaterials::declare(std::uint32_t material, const std::strin
     painted.shininess = shininess(phong.shininess, material, world_from_object);
     Outcome varying_shininess;
     Use use{textures_.declare(name, painted, varying_shininess)};
-    use.varies = reads(material, ir::Input::p_x, ir::Input::world_z);
+    use.varies = ir::material_reads(scene_, material, ir::Input::p_x, ir::Input::world_z);
+    use.by_uv = !use.varies && ir::material_reads(scene_, material, ir::Input::uv_x, ir::Input::uv_y);
     if (varying_shininess.fidelity != Fidelity::exact) {
         note(material, "phong shininess", varying_shininess);
     }
@@ -116,7 +124,9 @@ Paint PovMaterials::shininess(const runtime::Varying<double>& value, std::uint32
 std::pair<Paint, Fidelity> PovMaterials::paint(std::int32_t function, std::string_view field,
                                                std::uint32_t material, double largest,
                                                const Affine<double>* world_from_object) {
-    auto [result, outcome] = functions_.paint(function, {ranges_[material], largest, world_from_object});
+    const bool reads_point = ir::material_reads(scene_, material, ir::Input::p_x, ir::Input::world_z);
+    auto [result, outcome] = functions_.paint(
+        function, {ranges_[material], largest, world_from_object, reads_point ? uv_and_point : ""});
     outcome.how = fmt::format("function `{}`: {}", scene_.functions[static_cast<std::size_t>(function)].name,
                               outcome.how);
     note(material, fmt::format("phong {}", field), outcome);

@@ -17,12 +17,15 @@ namespace scc::compiler {
 /// The scene's materials as declared textures, each written when an object first needs it.
 class PovMaterials {
 public:
-    PovMaterials(const ir::Scene& scene, Writer& functions, Writer& textures, Ledger& ledger);
+    /// Only on meshes do the materials' functions read uv (see resolve_uv.h).
+    PovMaterials(const ir::Scene& scene, ExportFiles& files, Writer& functions, Writer& textures,
+                 Ledger& ledger);
 
     struct Use {
         std::string texture;
         bool varies = false;   ///< it depends on x, y, z
         bool in_world = false; ///< which are world coordinates, not the object's
+        bool by_uv = false;    ///< it depends on uv as x and y
     };
     Use use(std::uint32_t material, const ir::Object& object);
 
@@ -37,7 +40,6 @@ private:
                     const runtime::Affine<double>* world_from_object);
     std::pair<Paint, Fidelity> paint(std::int32_t function, std::string_view field, std::uint32_t material,
                                      double largest, const runtime::Affine<double>* world_from_object);
-    bool reads(std::uint32_t material, ir::Input first, ir::Input last) const;
     void note(std::uint32_t material, std::string_view feature, const Outcome& outcome);
 
     const ir::Scene& scene_;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -47,6 +48,28 @@ struct ToPov {
         return {"disc",
                 {fmt::format("{}, {}, {}, {}", at(d.center), pov_vector(d.normal), size(d.radius),
                              size(d.hole))}};
+    }
+    /// POV-Ray's lies about the y axis; `sturm` finds its roots by Sturm's theorem rather than by a formula.
+    PovShape operator()(const runtime::Torus<double>& t) const {
+        return {"torus",
+                {fmt::format("{}, {} sturm", size(t.major), size(t.minor)), pov_transform(standing(t.axis)),
+                 fmt::format("translate {}", at(t.center))}};
+    }
+    /// A rotation of the y axis to a unit vector.
+    static runtime::Affine<double> standing(const Vec3<double>& y) {
+        const Vec3<double> x =
+            normalize(cross(y, std::abs(y.z) < 0.5 ? Vec3<double>{0, 0, 1} : Vec3<double>{1, 0, 0}));
+        const Vec3<double> z = cross(x, y);
+        return {{{x.x, y.x, z.x, 0}, {x.y, y.y, z.y, 0}, {x.z, y.z, z.z, 0}}};
+    }
+    PovShape operator()(const runtime::Quadric<double>& q) const {
+        const double k = placement.shape_scale;
+        const Vec3<double> linear = k * q.linear;
+        // The products in the order xy, xz, yz.
+        return {"quadric",
+                {fmt::format("{}, <{}, {}, {}>, {}, {}", pov_vector(q.squares), number(q.products.x),
+                             number(q.products.z), number(q.products.y), pov_vector(linear),
+                             number(q.constant * k * k))}};
     }
     PovShape operator()(const runtime::Triangle<double>& t) const { return t.smooth ? smooth(t) : flat(t); }
     PovShape operator()(const runtime::Csg<double>&) const { return {}; } // written by its members
@@ -182,16 +205,24 @@ runtime::Bounds<double> pov_field_box(const runtime::Container<double>& containe
     return box;
 }
 
-void declare_mesh(const ir::Mesh& mesh, const std::string& name, Writer& out) {
+void declare_mesh(const ir::Mesh& mesh, const std::string& name, bool with_uvs, Writer& out) {
     out.line("#declare {} = mesh2 {{", name);
     out.indent();
     list_vectors(out, "vertex_vectors", mesh.positions, static_cast<float>(mesh_scale(mesh)));
     if (!mesh.normals.empty()) {
         list_vectors(out, "normal_vectors", mesh.normals, 1);
     }
+    const bool has_uvs = with_uvs && !mesh.uvs.empty();
+    if (has_uvs) {
+        list(out, "uv_vectors", mesh.uvs.size() / 2,
+             [&](std::size_t i) { return fmt::format("<{}, {}>", mesh.uvs[2 * i], mesh.uvs[2 * i + 1]); });
+    }
     list_faces(out, "face_indices", mesh.indices);
     if (!mesh.normals.empty()) {
         list_faces(out, "normal_indices", mesh.normal_indices);
+    }
+    if (has_uvs) {
+        list_faces(out, "uv_indices", mesh.uv_indices);
     }
     out.dedent();
     out.line("}}");

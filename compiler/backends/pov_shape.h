@@ -39,6 +39,6 @@ PovShape pov_shape(const ir::Shape& shape, const Placement& placement,
 runtime::Bounds<double> pov_field_box(const runtime::Container<double>& container);
 
 /// `#declare NAME = mesh2 { ... }`
-void declare_mesh(const ir::Mesh& mesh, const std::string& name, Writer& out);
+void declare_mesh(const ir::Mesh& mesh, const std::string& name, bool with_uvs, Writer& out);
 
 } // namespace scc::compiler

@@ -27,16 +27,42 @@ std::shared_ptr<const Meshes> build_meshes(const ir::Scene& scene, const runtime
     return meshes;
 }
 
+/// The colours of a scene with spectra, group after group; else without any.
+template <class R>
+struct Bands {
+    std::vector<runtime::BandGroup<R>> groups;
+    std::vector<runtime::Phong<R>> materials;
+    std::vector<runtime::PointLight<R>> point_lights;
+    std::vector<runtime::DirectionalLight<R>> directional_lights;
+    std::vector<runtime::SpotLight<R>> spot_lights;
+    std::vector<runtime::RectangleLight<R>> rectangle_lights;
+
+    void give(std::size_t group, runtime::DynamicScene<R>& scene) const {
+        const auto give_rows = [&]<class T>(const std::vector<T>& all, std::vector<T>& rows) {
+            rows.resize(all.size() / groups.size());
+            take_rows(std::span<const T>(all), group, groups.size(), rows);
+        };
+        give_rows(materials, scene.materials);
+        give_rows(point_lights, scene.point_lights);
+        give_rows(directional_lights, scene.directional_lights);
+        give_rows(spot_lights, scene.spot_lights);
+        give_rows(rectangle_lights, scene.rectangle_lights);
+        scene.ambient = groups[group].ambient;
+        scene.background = groups[group].background;
+    }
+};
+
 // A scene together with the meshes that its tables point into, which are the same in both precisions.
 template <class R>
 struct OwnedScene {
     runtime::DynamicScene<R> scene;
     std::shared_ptr<const Meshes> meshes;
+    Bands<R> bands;
 };
 
 template <class R>
-std::shared_ptr<const OwnedScene<R>> build(const ir::Scene& scene, std::shared_ptr<const Meshes> meshes,
-                                           const runtime::BuildOptions& options) {
+std::shared_ptr<OwnedScene<R>> build(const ir::Scene& scene, std::shared_ptr<const Meshes> meshes,
+                                     const runtime::BuildOptions& options) {
     auto owned = std::make_shared<OwnedScene<R>>();
     owned->meshes = std::move(meshes);
     runtime::DynamicScene<R>& out = owned->scene;
@@ -48,9 +74,18 @@ std::shared_ptr<const OwnedScene<R>> build(const ir::Scene& scene, std::shared_p
     out.materials = materials_of<R>(scene);
     out.point_lights = lights_of<runtime::PointLight, R>(scene);
     out.directional_lights = lights_of<runtime::DirectionalLight, R>(scene);
+    out.spot_lights = lights_of<runtime::SpotLight, R>(scene);
+    out.rectangle_lights = lights_of<runtime::RectangleLight, R>(scene);
+    if (!scene.bands.empty()) {
+        owned->bands = {bands_of<R>(scene),          std::move(out.materials),
+                        std::move(out.point_lights), std::move(out.directional_lights),
+                        std::move(out.spot_lights),  std::move(out.rectangle_lights)};
+        owned->bands.give(0, out);
+    }
     for (const ir::Function& function : scene.functions) {
         out.functions.push_back(program_of<R>(function));
     }
+    out.reads_uv = scene.traits.uv;
     out.camera = convert(scene.camera, R{});
     out.ambient = convert(scene.ambient, R{});
     out.background = convert(scene.background, R{});
@@ -63,9 +98,21 @@ Render make_renderer(const ir::Scene& scene, const std::shared_ptr<const Meshes>
                      const KernelSet& kernels, const runtime::BuildOptions& options) {
     return [owned = build<R>(scene, meshes, options),
             kernel = kernels.of(R{})](const runtime::RenderRequest& request, runtime::Image& image) {
-        runtime::RenderResult result;
-        kernel(owned->scene, request, image, result);
-        return result;
+        const auto draw = [&](const runtime::RenderRequest& one, runtime::Image& to) {
+            runtime::RenderResult result;
+            kernel(owned->scene, one, to, result);
+            return result;
+        };
+        const Bands<R>& bands = owned->bands;
+        if (bands.groups.empty()) {
+            return draw(request, image);
+        }
+        const auto draw_group = [&](std::size_t group, const runtime::RenderRequest& one,
+                                    runtime::Image& to) {
+            bands.give(group, owned->scene);
+            return draw(one, to);
+        };
+        return render_bands(std::span<const runtime::BandGroup<R>>(bands.groups), request, image, draw_group);
     };
 }
 Render make_renderer(Precision precision, const ir::Scene& scene, const std::shared_ptr<const Meshes>& meshes,

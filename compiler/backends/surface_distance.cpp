@@ -159,6 +159,14 @@ struct Measure {
         const double across = length(p - height * n);
         include_distance(std::hypot(height, across - clamped(across, d.hole, d.radius)));
     }
+    void operator()(const runtime::Torus<double>& t) {
+        include_box(t.bounds());
+        const Point p = in_object() - t.center;
+        const double height = dot(p, t.axis);
+        const double across = length(p - height * t.axis);
+        include_distance(std::abs(std::hypot(across - t.major, height) - t.minor));
+    }
+    void operator()(const runtime::Quadric<double>&) { range = {0, INFINITY}; }
     void operator()(const runtime::Implicit<double>& i) { // anywhere in the container
         include_box(i.bounds());
         range.near = 0;

@@ -9,8 +9,12 @@ namespace scc::compiler {
 
 std::span<const Exporter> exporters() {
     static constexpr Exporter table[] = {
-        {"pov", "POV-Ray 3.7", ".pov", emit_pov},
-        {"blender", "Blender 3.4", ".py", emit_blender},
+        {"pov", "POV-Ray 3.7", ".pov",
+         [](const ir::Scene& scene, Ledger& ledger, ExportFiles& files) {
+             return emit_pov(scene, ledger, files);
+         }},
+        {"blender", "Blender 3.4", ".py",
+         [](const ir::Scene& scene, Ledger& ledger, ExportFiles&) { return emit_blender(scene, ledger); }},
     };
     return table;
 }

@@ -30,6 +30,14 @@ bool convert(bool v, R) {
     return v;
 }
 template <class R, std::size_t N>
+std::array<runtime::Vec2<R>, N> convert(const std::array<runtime::Vec2<double>, N>& list, R) {
+    std::array<runtime::Vec2<R>, N> result;
+    for (std::size_t i = 0; i < N; ++i) {
+        result[i] = {static_cast<R>(list[i].x), static_cast<R>(list[i].y)};
+    }
+    return result;
+}
+template <class R, std::size_t N>
 std::array<runtime::Vec3<R>, N> convert(const std::array<runtime::Vec3<double>, N>& list, R real) {
     std::array<runtime::Vec3<R>, N> result;
     for (std::size_t i = 0; i < N; ++i) {
@@ -51,6 +59,16 @@ template <class R>
 runtime::PointLight<R> convert(const runtime::PointLight<double>& l, R real) {
     return {convert(l.position, real), convert(l.diffuse, real), convert(l.specular, real),
             convert(l.kc, real),       convert(l.kl, real),      convert(l.kq, real)};
+}
+template <class R>
+runtime::SpotLight<R> convert(const runtime::SpotLight<double>& l, R real) {
+    return {convert(static_cast<const runtime::PointLight<double>&>(l), real), convert(l.axis, real),
+            convert(l.cos_inner, real), convert(l.cos_outer, real), convert(l.exponent, real)};
+}
+template <class R>
+runtime::RectangleLight<R> convert(const runtime::RectangleLight<double>& l, R real) {
+    return {convert(static_cast<const runtime::PointLight<double>&>(l), real), convert(l.edge_u, real),
+            convert(l.edge_v, real), l.nu, l.nv};
 }
 template <class R>
 runtime::DirectionalLight<R> convert(const runtime::DirectionalLight<double>& l, R real) {
@@ -160,25 +178,57 @@ inline std::vector<runtime::CsgNode> csg_nodes_of(const ir::Scene& scene) {
     return nodes;
 }
 
-/// The lights of one kind, in source order.
+/// The lights of one kind, in source order; of a scene with spectra, those of each of Scene::bands after
+/// those of the one before.
 template <template <class> class Light, class R>
 std::vector<Light<R>> lights_of(const ir::Scene& scene) {
     std::vector<Light<R>> lights;
-    for (const ir::Light& light : scene.lights) {
-        if (const auto* found = std::get_if<Light<double>>(&light.light)) {
-            lights.push_back(convert(*found, R{}));
+    const auto add = [&](auto&& colored) {
+        for (const ir::Light& light : scene.lights) {
+            if (const auto* found = std::get_if<Light<double>>(&light.light)) {
+                lights.push_back(convert(colored(light, *found), R{}));
+            }
         }
+    };
+    if (scene.bands.empty()) {
+        add([](const ir::Light&, const Light<double>& light) { return light; });
+    }
+    for (std::size_t band = 0; band < scene.bands.size(); ++band) {
+        add([&](const ir::Light& from, Light<double> light) {
+            light.diffuse = from.bands[band].diffuse;
+            light.specular = from.bands[band].specular;
+            return light;
+        });
     }
     return lights;
 }
 
+/// As the lights, band after band.
 template <class R>
 std::vector<runtime::Phong<R>> materials_of(const ir::Scene& scene) {
     std::vector<runtime::Phong<R>> materials;
-    for (const ir::Material& material : scene.materials) {
-        materials.push_back(convert(material.phong, R{}));
+    const auto add = [&](auto&& phong) {
+        for (const ir::Material& material : scene.materials) {
+            materials.push_back(convert(phong(material), R{}));
+        }
+    };
+    if (scene.bands.empty()) {
+        add([](const ir::Material& material) { return material.phong; });
+    }
+    for (std::size_t band = 0; band < scene.bands.size(); ++band) {
+        add([&](const ir::Material& material) { return material.bands[band]; });
     }
     return materials;
+}
+
+template <class R>
+std::vector<runtime::BandGroup<R>> bands_of(const ir::Scene& scene) {
+    std::vector<runtime::BandGroup<R>> bands;
+    for (const runtime::BandGroup<double>& band : scene.bands) {
+        bands.push_back(
+            {convert(band.ambient, R{}), convert(band.background, R{}), band.red, band.green, band.blue});
+    }
+    return bands;
 }
 
 } // namespace scc::compiler

@@ -70,7 +70,8 @@ int export_scene(const Options& options) {
     }
     const compiler::Exporter& exporter = *compiler::find_exporter(options.target);
     compiler::Ledger ledger;
-    const std::string text = exporter.emit(loaded.scene, ledger);
+    compiler::ExportFiles beside{.stem = std::filesystem::path(options.output).stem().string()};
+    const std::string text = exporter.emit(loaded.scene, ledger, beside);
     for (const compiler::LedgerEntry& entry : ledger) {
         if (entry.fidelity == compiler::Fidelity::dropped) {
             const lang::Diag kind = options.allow_drop ? lang::Diag::dropped : lang::Diag::not_exportable;
@@ -80,14 +81,25 @@ int export_scene(const Options& options) {
     if (!report(loaded)) {
         return host::exit_scene;
     }
+    if (!beside.files.empty() && options.output == "-") {
+        throw host::UsageError(
+            "the scene has images, which are written beside the export; `-o` takes a file's name");
+    }
     if (!options.ledger.empty()) {
         write_result(options.ledger, ledger_json(ledger_rows(ledger, loaded.sources)));
     }
+    write_beside(std::filesystem::path(options.output).parent_path(), beside);
     write_result(options.output, text);
     return host::exit_fine;
 }
 
 } // namespace
+
+void write_beside(const std::filesystem::path& folder, const compiler::ExportFiles& beside) {
+    for (const compiler::ExportFiles::File& file : beside.files) {
+        host::replace_file((folder / file.name).string(), file.bytes);
+    }
+}
 
 std::vector<validation::LedgerRow> ledger_rows(const compiler::Ledger& ledger,
                                                const lang::SourceSet& sources) {
@@ -110,7 +122,10 @@ void add_export(CLI::App& app, Run& selected) {
         ->required()
         ->check(CLI::IsMember(names));
     add_scene_options(*command, options->scene);
-    command->add_option("-o,--output", options->output, "the exported file; - for stdout")
+    command
+        ->add_option(
+            "-o,--output", options->output,
+            "the exported file; - for stdout. Images of an export to POV-Ray go beside it, named after it")
         ->required()
         ->type_name("OUT");
     command

@@ -39,8 +39,8 @@ RuntimeFiles find_runtime() {
     const RuntimeFiles candidates[] = {
         {prefix / "include/scc",
          installed / "libscc_host.a",
-         {installed / "libscc_compiler.a", installed / "libscc_lang.a"}},
-        {SCC_SOURCE_DIR, SCC_HOST_LIBRARY, {SCC_COMPILER_LIBRARY, SCC_LANG_LIBRARY}}};
+         {installed / "libscc_compiler.a", installed / "libscc_lang.a", installed / "libscc_read_image.a"}},
+        {SCC_SOURCE_DIR, SCC_HOST_LIBRARY, {SCC_COMPILER_LIBRARY, SCC_LANG_LIBRARY, SCC_READ_IMAGE_LIBRARY}}};
     for (const RuntimeFiles& files : candidates) {
         if (fs::exists(files.include / "runtime/render.h", error) && fs::exists(files.library, error)) {
             return files;

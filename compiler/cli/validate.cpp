@@ -3,6 +3,8 @@
 #include "compiler/cli/commands.h"
 #include "compiler/cli/export.h"
 #include "compiler/cli/native.h"
+#include "compiler/ir/bands.h"
+#include "runtime/bands.h"
 #include "runtime/host/file.h"
 #include "runtime/host/options.h"
 #include "runtime/host/read_image.h"
@@ -23,6 +25,7 @@ namespace scc::cli {
 
 namespace {
 
+namespace ir = compiler::ir;
 using validation::RendererReport;
 using validation::RenderStatus;
 using validation::SceneReport;
@@ -126,32 +129,78 @@ RendererReport run_native(const Subject& subject) {
     return result;
 }
 
-RendererReport run_exported(const Subject& subject, const std::string& name, int threads,
-                            double timeout_seconds) {
-    RendererReport result;
-    result.renderer = name;
-    const compiler::Exporter& exporter = *compiler::find_exporter(name);
-    compiler::Ledger ledger;
+/// Exports the scene and has the other renderer draw it.
+validation::RenderResult run_renderer(const compiler::Exporter& exporter, const ir::Scene& scene,
+                                      const Subject& subject, double brightest, double timeout_seconds,
+                                      compiler::Ledger& ledger) {
     const std::filesystem::path file = subject.folder.path() / ("scene" + std::string(exporter.extension));
-    compiler::ir::Scene scene = subject.loaded.scene;
-    scene.settings = subject.request.settings; // meshes are refined for the picture's size
-    host::replace_file(file.string(), exporter.emit(scene, ledger));
-    result.ledger = ledger_rows(ledger, subject.loaded.sources);
-
+    compiler::ExportFiles beside{.stem = file.stem().string()};
+    ir::Scene sized = scene;
+    sized.settings = subject.request.settings; // meshes are refined for the picture's size
+    host::replace_file(file.string(), exporter.emit(sized, ledger, beside));
+    write_beside(subject.folder.path(), beside);
     validation::RenderJob job;
     job.scene = file;
     job.folder = subject.folder.path();
     job.width = subject.request.settings.width;
     job.height = subject.request.settings.height;
     job.samples_per_axis = subject.request.settings.samples_per_axis;
-    job.threads = threads;
+    job.threads = subject.request.threads;
     job.timeout_seconds = timeout_seconds;
-    job.brightest = validation::brightest_value(subject.report.reference);
+    job.brightest = brightest;
     validation::RenderResult run =
-        name == "pov" ? validation::render_with_povray(job) : validation::render_with_blender(job);
+        exporter.name == "pov" ? validation::render_with_povray(job) : validation::render_with_blender(job);
     if (run.status == RenderStatus::interrupted) {
         throw Interrupted{};
     }
+    return run;
+}
+
+/// A renderer that knows no spectra draws three wavelengths at a time too.
+validation::RenderResult run_renderer_in_bands(const compiler::Exporter& exporter, const Subject& subject,
+                                               double timeout_seconds, compiler::Ledger& ledger) {
+    const ir::Scene& scene = subject.loaded.scene;
+    validation::RenderResult last;
+    double seconds = 0;
+    runtime::Image sum(subject.report.reference.width, subject.report.reference.height);
+    const auto draw_band = [&](std::size_t band, const runtime::RenderRequest& request,
+                               runtime::Image& image) {
+        const ir::Scene one = ir::band_scene(scene, band);
+        compiler::make_drawable(one, compiler::Precision::full).render(request, image);
+        compiler::Ledger of_band;
+        last = run_renderer(exporter, one, subject, validation::brightest_value(image), timeout_seconds,
+                            of_band);
+        ledger = band == 0 ? of_band : ledger;
+        seconds += last.times.total.value_or(0);
+        runtime::RenderResult result;
+        result.complete = last.status == RenderStatus::done;
+        image = result.complete ? last.image : image;
+        return result;
+    };
+    render_bands(std::span<const runtime::BandGroup<double>>(scene.bands), subject.request, sum, draw_band);
+    last.image = std::move(sum);
+    last.exposure = 1;
+    last.times = {.start_up = {}, .parse = {}, .bounding = {}, .trace = {}, .saving = {}, .total = seconds};
+    ledger.push_back({compiler::Fidelity::exact,
+                      "spectrum",
+                      "scene",
+                      {},
+                      fmt::format("{} pictures of three wavelengths each, added up", scene.bands.size())});
+    return last;
+}
+
+RendererReport run_exported(const Subject& subject, const std::string& name, double timeout_seconds) {
+    RendererReport result;
+    result.renderer = name;
+    const compiler::Exporter& exporter = *compiler::find_exporter(name);
+    compiler::Ledger ledger;
+    const ir::Scene& scene = subject.loaded.scene;
+    validation::RenderResult run =
+        scene.bands.empty()
+            ? run_renderer(exporter, scene, subject, validation::brightest_value(subject.report.reference),
+                           timeout_seconds, ledger)
+            : run_renderer_in_bands(exporter, subject, timeout_seconds, ledger);
+    result.ledger = ledger_rows(ledger, subject.loaded.sources);
     result.version = run.version;
     result.command = run.command;
     result.times = run.times;
@@ -226,8 +275,7 @@ int validate(const Options& options) {
         write_result("-", fmt::format("{}\n", file));
         for (const std::string& name : names) {
             RendererReport result = name == "native" ? run_native(*subject)
-                                                     : run_exported(*subject, name, subject->request.threads,
-                                                                    options.timeout_seconds);
+                                                     : run_exported(*subject, name, options.timeout_seconds);
             write_result("-", summary_line(result));
             const std::pair<std::string, std::string> version{result.renderer, result.version};
             if (!result.version.empty() &&

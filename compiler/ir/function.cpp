@@ -27,9 +27,15 @@ std::optional<Op> find_operator(std::string_view name) {
     return static_cast<Op>(found - std::begin(rows));
 }
 
+std::size_t arity(const Node& node) {
+    return node.kind == Node::Kind::apply   ? static_cast<std::size_t>(row(node.op).arity)
+           : node.kind == Node::Kind::image ? 2
+                                            : 0;
+}
+
 std::string_view name(Input input) {
-    constexpr std::string_view names[] = {"p.x",     "p.y", "p.z", "world.x", "world.y",
-                                          "world.z", "n.x", "n.y", "n.z"};
+    constexpr std::string_view names[] = {"p.x", "p.y", "p.z", "world.x", "world.y", "world.z",
+                                          "n.x", "n.y", "n.z", "uv.x",    "uv.y"};
     return names[static_cast<std::size_t>(input)];
 }
 

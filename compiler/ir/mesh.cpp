@@ -10,6 +10,8 @@ Mesh make_mesh(std::string name, MeshArrays arrays) {
     mesh.normals = owner->normals;
     mesh.indices = owner->indices;
     mesh.normal_indices = owner->normal_indices;
+    mesh.uvs = owner->uvs;
+    mesh.uv_indices = owner->uv_indices;
     runtime::Bounds<float> box;
     for (std::size_t i = 0; i + 2 < mesh.positions.size(); i += 3) {
         box.add(runtime::Vec3<float>{mesh.positions[i], mesh.positions[i + 1], mesh.positions[i + 2]});

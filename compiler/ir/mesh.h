@@ -19,6 +19,8 @@ struct Mesh {
     std::span<const float> normals;                ///< x y z each, unit; empty: flat shading
     std::span<const std::uint32_t> indices;        ///< into positions
     std::span<const std::uint32_t> normal_indices; ///< into normals; same length as indices, or empty
+    std::span<const float> uvs;                    ///< u v each; empty: none
+    std::span<const std::uint32_t> uv_indices;     ///< into uvs; same length as indices, or empty
     runtime::Bounds<double> box;                   ///< of all positions
     std::shared_ptr<const void> owner;
     host::Cache cache; ///< may keep what is made of the mesh,
@@ -26,8 +28,8 @@ struct Mesh {
 };
 
 struct MeshArrays {
-    std::vector<float> positions, normals;
-    std::vector<std::uint32_t> indices, normal_indices;
+    std::vector<float> positions, normals, uvs;
+    std::vector<std::uint32_t> indices, normal_indices, uv_indices;
 };
 
 /// A mesh of these numbers, of which nothing is kept.

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 namespace scc::compiler::ir {
 
 lang::Span ObjectColumn::span_of(std::size_t round) const {
@@ -22,6 +24,33 @@ std::size_t object_count(const Scene& scene) {
         count += array.rounds * array.columns.size();
     }
     return count;
+}
+
+std::array<std::int32_t, 6> functions_of(const runtime::Phong<double>& p) {
+    return {p.ambient.function,  p.diffuse.function, p.specular.function,
+            p.emission.function, p.reflect.function, p.shininess.function};
+}
+
+bool material_reads(const Scene& scene, std::uint32_t material, Input first, Input last) {
+    for (const std::int32_t index : functions_of(scene.materials[material].phong)) {
+        if (index != runtime::no_function &&
+            scene.functions[static_cast<std::size_t>(index)].reads(first, last)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+std::vector<const Image*> images_of(const Scene& scene) {
+    std::vector<const Image*> images;
+    for (const Function& function : scene.functions) {
+        for (const std::shared_ptr<const Image>& image : function.images) {
+            if (std::find(images.begin(), images.end(), image.get()) == images.end()) {
+                images.push_back(image.get());
+            }
+        }
+    }
+    return images;
 }
 
 std::string_view csg_word(runtime::CsgOp op) {

@@ -2,6 +2,7 @@
 
 #include "compiler/ir/scene.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -12,6 +13,15 @@
 namespace scc::compiler::ir {
 
 std::size_t object_count(const Scene& scene);
+
+/// Those of the material's fields; runtime::no_function where one is constant.
+std::array<std::int32_t, 6> functions_of(const runtime::Phong<double>& phong);
+
+/// Whether a function of the material reads one of these inputs.
+bool material_reads(const Scene& scene, std::uint32_t material, Input first, Input last);
+
+/// The images of all functions, each once.
+std::vector<const Image*> images_of(const Scene& scene);
 
 /// The author's word: `union`, `intersection`, `difference`.
 std::string_view csg_word(runtime::CsgOp op);

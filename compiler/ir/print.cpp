@@ -30,10 +30,13 @@ std::string text(const Vec3<double>& v) {
 std::string text(const Rgb<double>& c) {
     return fmt::format("rgb({}, {}, {})", c.r, c.g, c.b);
 }
-template <std::size_t N>
-std::string text(const std::array<Vec3<double>, N>& list) {
+std::string text(const runtime::Vec2<double>& v) {
+    return fmt::format("({}, {})", v.x, v.y);
+}
+template <class T, std::size_t N>
+std::string text(const std::array<T, N>& list) {
     std::string result;
-    for (const Vec3<double>& v : list) {
+    for (const T& v : list) {
         result += (result.empty() ? "[" : ", ") + text(v);
     }
     return result + "]";
@@ -66,6 +69,10 @@ void print_function(Writer& out, const Function& function, std::size_t index) {
                 what += fmt::format(" %{}", node.operands[static_cast<std::size_t>(k)]);
             }
             break;
+        case Node::Kind::image:
+            what = fmt::format("image {}.{} %{} %{}", quote(Language::cpp, function.images[node.image]->name),
+                               "rgb"[node.channel], node.operands[0], node.operands[1]);
+            break;
         }
         out.line("%{} = {}", i, what);
     }
@@ -78,10 +85,7 @@ void print_function(Writer& out, const Function& function, std::size_t index) {
     out.line("}}");
 }
 
-void print_material(Writer& out, const Material& material, const Scene& scene) {
-    out.line("material {} {{", quote(Language::cpp, material.name));
-    out.indent();
-    const runtime::Phong<double>& p = material.phong;
+void print_phong(Writer& out, const runtime::Phong<double>& p, const Scene& scene) {
     const std::pair<const char*, const Varying<Rgb<double>>*> colors[] = {{"ambient", &p.ambient},
                                                                           {"diffuse", &p.diffuse},
                                                                           {"specular", &p.specular},
@@ -91,6 +95,16 @@ void print_material(Writer& out, const Material& material, const Scene& scene) {
         out.line("{} = {}", field, text(*value, scene));
     }
     out.line("shininess = {}", text(p.shininess, scene));
+}
+
+void print_material(Writer& out, const Material& material, const Scene& scene) {
+    out.line("material {} {{", quote(Language::cpp, material.name));
+    out.indent();
+    print_phong(out, material.phong, scene);
+    for (const runtime::Phong<double>& band : material.bands) {
+        out.raw_line("band");
+        print_phong(out, band, scene);
+    }
     out.dedent();
     out.line("}}");
 }
@@ -152,9 +166,20 @@ void print_object(Writer& out, const std::string& heading, const Object& object,
     out.line("}}");
 }
 
-std::string light_text(const runtime::PointLight<double>& l) {
-    return fmt::format("point position = {}, diffuse = {}, specular = {}, attenuation = ({}, {}, {})",
+std::string point_text(const runtime::PointLight<double>& l) {
+    return fmt::format("position = {}, diffuse = {}, specular = {}, attenuation = ({}, {}, {})",
                        text(l.position), text(l.diffuse), text(l.specular), l.kc, l.kl, l.kq);
+}
+std::string light_text(const runtime::PointLight<double>& l) {
+    return "point " + point_text(l);
+}
+std::string light_text(const runtime::SpotLight<double>& l) {
+    return fmt::format("spot {}, axis = {}, cos_inner = {}, cos_outer = {}, exponent = {}", point_text(l),
+                       text(l.axis), l.cos_inner, l.cos_outer, l.exponent);
+}
+std::string light_text(const runtime::RectangleLight<double>& l) {
+    return fmt::format("rectangle {}, edge_u = {}, edge_v = {}, samples = ({}, {})", point_text(l),
+                       text(l.edge_u), text(l.edge_v), l.nu, l.nv);
 }
 std::string light_text(const runtime::DirectionalLight<double>& l) {
     return fmt::format("directional to_light = {}, diffuse = {}, specular = {}", text(l.to_light),
@@ -175,6 +200,10 @@ std::string print(const Scene& scene) {
              text(c.u), text(c.v), text(c.n), c.half_height, c.shift_x, c.shift_y);
     out.line("ambient = {}", text(scene.ambient));
     out.line("background = {}", text(scene.background));
+    for (const runtime::BandGroup<double>& band : scene.bands) {
+        out.line("band ambient = {}, background = {}, to Rec.709 = [{}, {}, {}]", text(band.ambient),
+                 text(band.background), text(band.red), text(band.green), text(band.blue));
+    }
     std::string needs;
     for (const std::string& feature : feature_names(scene.traits)) {
         needs += (needs.empty() ? " " : ", ") + feature;
@@ -183,6 +212,9 @@ std::string print(const Scene& scene) {
     for (const Light& light : scene.lights) {
         out.line("light {} {}", quote(Language::cpp, light.name),
                  std::visit([](const auto& l) { return light_text(l); }, light.light));
+        for (const LightColors& band : light.bands) {
+            out.line("  band diffuse = {}, specular = {}", text(band.diffuse), text(band.specular));
+        }
     }
     for (std::size_t i = 0; i < scene.functions.size(); ++i) {
         print_function(out, scene.functions[i], i);

@@ -4,6 +4,7 @@
 #include "compiler/ir/mesh.h"
 #include "lang/rows.h"
 #include "lang/source.h"
+#include "runtime/bands.h"
 #include "runtime/camera.h"
 #include "runtime/light.h"
 #include "runtime/material.h"
@@ -40,8 +41,9 @@ struct VectorsOf<runtime::TypeList<Ts...>> {
 using Shapes = VectorsOf<runtime::Shapes<double>>::type;
 
 struct Material {
-    std::string name;             ///< the author's `let`, else made from the object; unique
-    runtime::Phong<double> phong; ///< Varying::function indexes Scene::functions
+    std::string name;                            ///< the author's `let`, else made from the object; unique
+    runtime::Phong<double> phong;                ///< Varying::function indexes Scene::functions
+    std::vector<runtime::Phong<double>> bands{}; ///< the same for each of Scene::bands
     lang::Span span;
 };
 
@@ -85,10 +87,18 @@ struct CsgNode {
     bool inverted = false;    ///< of a member: an odd number of subtractions takes it away
 };
 
+struct LightColors {
+    runtime::Rgb<double> diffuse{};
+    runtime::Rgb<double> specular{};
+};
+
 struct Light {
-    std::variant<runtime::PointLight<double>, runtime::DirectionalLight<double>> light;
+    std::variant<runtime::PointLight<double>, runtime::DirectionalLight<double>, runtime::SpotLight<double>,
+                 runtime::RectangleLight<double>>
+        light;
     std::string name; ///< unique
     lang::Span span;
+    std::vector<LightColors> bands{}; ///< instead of the light's own, for each of Scene::bands
 };
 
 struct Scene {
@@ -106,6 +116,9 @@ struct Scene {
     lang::Span camera_span;
     runtime::Rgb<double> ambient{0.1, 0.1, 0.1}; ///< Ia
     runtime::Rgb<double> background{0, 0, 0};
+    /// Of a scene with spectra: it is drawn in these; what stands in Rec.709 above and in materials and
+    /// lights is how others, who know no spectra, come near to it. Else empty.
+    std::vector<runtime::BandGroup<double>> bands;
     std::string file; ///< that the scene names for its picture, or empty
     runtime::RenderSettings settings;
     runtime::SceneTraits traits; ///< by the pass derive_traits

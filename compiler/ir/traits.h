@@ -20,6 +20,8 @@ struct TraitFlag {
 inline constexpr auto trait_flags = std::to_array<TraitFlag>({
     {"point_lights", &runtime::SceneTraits::point_lights},
     {"directional_lights", &runtime::SceneTraits::directional_lights},
+    {"spot_lights", &runtime::SceneTraits::spot_lights},
+    {"rectangle_lights", &runtime::SceneTraits::rectangle_lights},
     {"attenuation", &runtime::SceneTraits::attenuation},
     {"separate_specular", &runtime::SceneTraits::separate_specular},
     {"specular", &runtime::SceneTraits::specular},
@@ -27,6 +29,7 @@ inline constexpr auto trait_flags = std::to_array<TraitFlag>({
     {"reflection", &runtime::SceneTraits::reflection},
     {"two_sided", &runtime::SceneTraits::two_sided},
     {"functions", &runtime::SceneTraits::functions},
+    {"uv", &runtime::SceneTraits::uv},
     {"smooth_normals", &runtime::SceneTraits::smooth_normals},
     {"shadows", &runtime::SceneTraits::shadows},
     {"accelerator", &runtime::SceneTraits::accelerator},

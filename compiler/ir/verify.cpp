@@ -25,10 +25,11 @@ void require(bool condition, std::string_view what, std::string_view where) {
 void verify_function(const Function& function) {
     for (std::size_t i = 0; i < function.nodes.size(); ++i) {
         const Node& node = function.nodes[i];
-        const int arity = node.kind == Node::Kind::apply ? row(node.op).arity : 0;
-        for (int k = 0; k < arity; ++k) {
-            require(node.operands[static_cast<std::size_t>(k)] < i, "an operand comes after its use",
-                    function.name);
+        for (std::size_t k = 0; k < arity(node); ++k) {
+            require(node.operands[k] < i, "an operand comes after its use", function.name);
+        }
+        if (node.kind == Node::Kind::image) {
+            require(node.image < function.images.size() && node.channel < 3, "no such image", function.name);
         }
     }
     require(function.results.size() == 1 || function.results.size() == 3,
@@ -44,14 +45,22 @@ void verify_varying(std::int32_t index, std::size_t results, const Scene& scene,
             "a function has the wrong number of results", where);
 }
 
-void verify_material(const Material& material, const Scene& scene) {
-    const runtime::Phong<double>& p = material.phong;
+void verify_phong(const runtime::Phong<double>& p, const Material& material, const Scene& scene) {
     for (const auto* color : {&p.ambient, &p.diffuse, &p.specular, &p.emission, &p.reflect}) {
         verify_varying(color->function, 3, scene, material.name);
         require(std::isfinite(color->value.r + color->value.g + color->value.b), "a colour is not finite",
                 material.name);
     }
     verify_varying(p.shininess.function, 1, scene, material.name);
+}
+
+void verify_material(const Material& material, const Scene& scene) {
+    verify_phong(material.phong, material, scene);
+    require(material.bands.size() == scene.bands.size(), "a material has not one colour per band",
+            material.name);
+    for (const runtime::Phong<double>& phong : material.bands) {
+        verify_phong(phong, material, scene);
+    }
 }
 
 void verify_solid(const Object& object, const runtime::Csg<double>& solid, const Scene& scene) {
@@ -114,6 +123,9 @@ void verify_mesh(const Mesh& mesh) {
     require(mesh.indices.size() % 3 == 0 && !mesh.indices.empty(), "a mesh has whole triangles", mesh.name);
     require(mesh.normal_indices.empty() || mesh.normal_indices.size() == mesh.indices.size(),
             "one normal per corner", mesh.name);
+    require(mesh.uv_indices.empty() || mesh.uv_indices.size() == mesh.indices.size(), "one uv per corner",
+            mesh.name);
+    require(all_below(mesh.uv_indices, mesh.uvs.size() / 2), "no such uv", mesh.name);
     require(all_below(mesh.indices, mesh.positions.size() / 3), "no such vertex", mesh.name);
     require(all_below(mesh.normal_indices, mesh.normals.size() / 3), "no such normal", mesh.name);
 }
@@ -134,6 +146,9 @@ void verify(const Scene& scene) {
     }
     for (const Material& material : scene.materials) {
         verify_material(material, scene);
+    }
+    for (const Light& light : scene.lights) {
+        require(light.bands.size() == scene.bands.size(), "a light has not one colour per band", light.name);
     }
     for (const Object& object : scene.objects) {
         verify_object(object, scene);

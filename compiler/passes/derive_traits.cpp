@@ -1,6 +1,8 @@
 #include "compiler/ir/objects.h"
 #include "compiler/ir/traits.h"
 #include "compiler/passes/passes.h"
+#include "runtime/illumination.h"
+#include "runtime/primitive.h"
 
 #include <algorithm>
 #include <bit>
@@ -46,20 +48,38 @@ void need(SceneTraits& traits, const ir::ObjectColumn& column) {
     }
 }
 
-void need(SceneTraits& traits, const runtime::Phong<double>& p, int depth) {
+void need(SceneTraits& traits, const runtime::Phong<double>& p, const ir::Scene& scene) {
     traits.specular |= is_present(p.specular);
     traits.emission |= is_present(p.emission);
-    traits.reflection |= depth > 0 && is_present(p.reflect);
+    traits.reflection |= scene.settings.depth > 0 && is_present(p.reflect);
     for (const std::int32_t function : {p.ambient.function, p.diffuse.function, p.specular.function,
                                         p.emission.function, p.reflect.function, p.shininess.function}) {
-        traits.functions |= function != runtime::no_function;
+        if (function != runtime::no_function) {
+            traits.functions = true;
+            traits.uv |=
+                scene.functions[static_cast<std::size_t>(function)].reads(ir::Input::uv_x, ir::Input::uv_y);
+        }
     }
+}
+
+void need_of_points(SceneTraits& traits, const runtime::PointLight<double>& light) {
+    traits.attenuation |= runtime::is_attenuated(light);
+    traits.separate_specular |= !(light.diffuse == light.specular);
 }
 
 void need(SceneTraits& traits, const runtime::PointLight<double>& light) {
     traits.point_lights = true;
-    traits.attenuation |= light.kc != 1 || light.kl != 0 || light.kq != 0;
-    traits.separate_specular |= !(light.diffuse == light.specular);
+    need_of_points(traits, light);
+}
+
+void need(SceneTraits& traits, const runtime::SpotLight<double>& light) {
+    traits.spot_lights = true;
+    need_of_points(traits, light);
+}
+
+void need(SceneTraits& traits, const runtime::RectangleLight<double>& light) {
+    traits.rectangle_lights = true;
+    need_of_points(traits, light);
 }
 
 void need(SceneTraits& traits, const runtime::DirectionalLight<double>& light) {
@@ -75,6 +95,11 @@ void add(SceneTraits& traits, const SceneTraits& more) {
     for (const ir::TraitFlag& flag : ir::trait_flags) {
         traits.*flag.member |= more.*flag.member;
     }
+}
+
+template <class Shape>
+std::size_t count_bounded(const Shape&) {
+    return runtime::is_bounded<Shape> ? 1 : 0;
 }
 
 } // namespace
@@ -95,12 +120,19 @@ std::vector<Need> needs_of(const ir::Scene& scene) {
         need_member(needs.emplace_back(SceneTraits{}, member.span).traits, member);
     }
     for (const ir::Material& material : scene.materials) {
-        need(needs.emplace_back(SceneTraits{}, material.span).traits, material.phong, scene.settings.depth);
+        SceneTraits& traits = needs.emplace_back(SceneTraits{}, material.span).traits;
+        need(traits, material.phong, scene);
+        for (const runtime::Phong<double>& phong : material.bands) {
+            need(traits, phong, scene);
+        }
     }
     for (const ir::Light& light : scene.lights) {
         SceneTraits& traits = needs.emplace_back(SceneTraits{}, light.span).traits;
         traits.shadows = scene.settings.shadows;
         std::visit([&](const auto& l) { need(traits, l); }, light.light);
+        traits.separate_specular |=
+            std::any_of(light.bands.begin(), light.bands.end(),
+                        [](const ir::LightColors& c) { return !(c.diffuse == c.specular); });
     }
     SceneTraits& camera = needs.emplace_back(SceneTraits{}, scene.camera_span).traits;
     camera.perspective = scene.camera.projection == runtime::Projection::perspective;
@@ -117,13 +149,13 @@ void derive_traits(ir::Scene& scene) {
     ir::for_each_piece(
         scene,
         [&](const ir::Object& object) {
-            bounded += std::holds_alternative<runtime::Plane<double>>(object.shape) ? 0 : 1;
+            bounded += std::visit([](const auto& shape) { return count_bounded(shape); }, object.shape);
         },
         [&](const ir::ObjectArray& array) {
             for (const ir::ObjectColumn& column : array.columns) {
-                const bool planes =
-                    std::holds_alternative<std::vector<runtime::Plane<double>>>(column.shapes);
-                bounded += planes ? 0 : array.rounds;
+                bounded +=
+                    array.rounds *
+                    std::visit([](const auto& shapes) { return count_bounded(shapes[0]); }, column.shapes);
             }
         });
     traits.accelerator = bounded > runtime::accelerator_threshold;

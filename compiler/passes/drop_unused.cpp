@@ -88,27 +88,33 @@ void for_each_field(ir::Scene& scene, Visit visit) {
     }
 }
 
+template <class Visit>
+void for_each_function_index(ir::Scene& scene, Visit visit) {
+    for (ir::Material& material : scene.materials) {
+        for_each_function_index(material.phong, visit);
+        for (runtime::Phong<double>& phong : material.bands) {
+            for_each_function_index(phong, visit);
+        }
+    }
+}
+
 void drop_functions(ir::Scene& scene) {
     std::vector<bool> used(scene.functions.size());
     for_each_field(scene, [&](std::int32_t field) { used[static_cast<std::size_t>(field)] = true; });
-    for (ir::Material& material : scene.materials) {
-        for_each_function_index(material.phong, [&](std::int32_t index) {
-            if (index >= 0) {
-                used[static_cast<std::size_t>(index)] = true;
-            }
-        });
-    }
+    for_each_function_index(scene, [&](std::int32_t index) {
+        if (index >= 0) {
+            used[static_cast<std::size_t>(index)] = true;
+        }
+    });
     const auto renumbered = keep(scene.functions, used);
     for_each_field(scene, [&](std::int32_t& field) {
         field = static_cast<std::int32_t>(renumbered[static_cast<std::size_t>(field)]);
     });
-    for (ir::Material& material : scene.materials) {
-        for_each_function_index(material.phong, [&](std::int32_t& index) {
-            if (index >= 0) {
-                index = static_cast<std::int32_t>(renumbered[static_cast<std::size_t>(index)]);
-            }
-        });
-    }
+    for_each_function_index(scene, [&](std::int32_t& index) {
+        if (index >= 0) {
+            index = static_cast<std::int32_t>(renumbered[static_cast<std::size_t>(index)]);
+        }
+    });
 }
 
 /// No array holds meshes, nor does a solid.

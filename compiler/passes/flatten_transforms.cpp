@@ -96,6 +96,15 @@ bool flatten(runtime::Disc<double>& d, const Affine<double>& a) {
     return scale.has_value();
 }
 
+bool flatten(runtime::Torus<double>& t, const Affine<double>& a) {
+    const auto scale = similarity(a);
+    if (scale) {
+        t = {transform_point(a, t.center), normalize(transform_normal(inverse(a), t.axis)), t.major * *scale,
+             t.minor * *scale};
+    }
+    return scale.has_value();
+}
+
 bool flatten(runtime::Triangle<double>& t, const Affine<double>& a) {
     // Interpolated normals keep their directions only under a similarity, since they are normalised at the
     // corners.
@@ -109,6 +118,7 @@ bool flatten(runtime::Triangle<double>& t, const Affine<double>& a) {
     if (determinant(a) < 0) { // a mirror turns the order of the corners round; the front stays the front
         std::swap(t.points[1], t.points[2]);
         std::swap(t.normals[1], t.normals[2]);
+        std::swap(t.uvs[1], t.uvs[2]);
     }
     return true;
 }
@@ -121,21 +131,18 @@ bool flatten(runtime::Csg<double>&, const Affine<double>&) {
     return false; // always in world coordinates
 }
 
+bool flatten(runtime::Quadric<double>&, const Affine<double>&) {
+    return false; // its factors would lose digits far from the origin
+}
+
 bool flatten(runtime::Implicit<double>&, const Affine<double>&) {
     return false; // the field is a function of the object's own coordinates
 }
 
-// A function of the object's own coordinates needs them at run time.
+// A function of the object's own coordinates, or of those on its surface, needs them at run time.
 bool reads_object_space(const ir::Scene& scene, std::uint32_t material) {
-    const runtime::Phong<double>& p = scene.materials[material].phong;
-    for (const std::int32_t index : {p.ambient.function, p.diffuse.function, p.specular.function,
-                                     p.emission.function, p.reflect.function, p.shininess.function}) {
-        if (index >= 0 &&
-            scene.functions[static_cast<std::size_t>(index)].reads(ir::Input::p_x, ir::Input::p_z)) {
-            return true;
-        }
-    }
-    return false;
+    return ir::material_reads(scene, material, ir::Input::p_x, ir::Input::p_z) ||
+           ir::material_reads(scene, material, ir::Input::uv_x, ir::Input::uv_y);
 }
 
 /// Whether a form allows it depends on the transform, and on what all shapes of a column have in common.

@@ -150,6 +150,7 @@ group {
   cone { from = (0, 0, 0), to = (0.2, 0.9, 0.2), radius_from = 0, radius_to = 0.5, caps = false, transform = shear then translate(2.8, 0, 2.4) }
   cone { radius_from = 0.4, transform = scale(1, 0.8, 1) then translate(0.1, 0, 2.6) }
   disc { center = (0, 0.7, 0), normal = (1, 0.3, 1), radius = 0.7, hole = 0.3, transform = mirrored then translate(3.4, 0, 0.4) }
+  torus { center = (0, 0.4, 0), axis = (1, 2, 1), major = 0.4, minor = 0.15, transform = mirrored then shear then translate(-0.3, 0, 3.6) }
   triangle { points = [(0, 0, 0), (1.2, 0, 0.2), (0.5, 1.2, 0)], transform = mirrored then translate(-1.6, 0, 1.8) }
   triangle { points = [(0, 0, 0), (1.2, 0, 0.2), (0.5, 1.2, 0)], normals = [(-0.5, 0, 1), (0.5, 0, 1), (0, 0.6, 1)],
              transform = mirrored then translate(1.2, 0, 2.6) }
@@ -182,6 +183,19 @@ implicit {
 }
 plane { normal = (0, 1, 0), offset = -1, material = phong { diffuse = rgb(0.5, 0.5, 0.5) } })")),
               12); // the outlines of meshes
+}
+
+TEST_F(BlenderRender, ShinesFromConesAndRectanglesAsWeDo) {
+    EXPECT_LE(differing_pixels(scene_of(R"(
+perspective_camera { eye = (3, 4, 7), target = (0, 0.5, 0) }
+spot_light { position = (2, 4, 3), target = (0, 0.5, 0), color = rgb(0.8, 0.4, 0.3), specular = rgb(0.2, 0.6, 0.3) }
+spot_light { position = (-3, 4, 3), target = (-1, 0, 1), inner = 12deg, outer = 12deg, attenuation = (0.5, 0.1, 0) }
+spot_light { position = (-3, 3, -1), target = (0, 0, 1), inner = 5deg, outer = 50deg, exponent = 7 }
+rectangle_light { corner = (2, 3, -2), edge_u = (1, 0, 0), edge_v = (0, 0.5, 1), samples = (3, 2) }
+directional_light { towards = (2, 4, 3), color = rgb(0.2, 0.2, 0.2) }
+sphere { center = (0, 1, 0), material = phong { specular = rgb(0.3, 0.2, 0.1) } }
+plane { })")),
+              3);
 }
 
 TEST_F(BlenderRender, DrawsMeshesAsWeDo) {

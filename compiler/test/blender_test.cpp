@@ -203,7 +203,7 @@ ir::Function function_of(ir::Op op, int operands) {
 
 std::string written(const ir::Function& function) {
     Writer out;
-    write_function(out, function, "f");
+    write_function(out, function, "f", {});
     return out.take();
 }
 
@@ -232,6 +232,20 @@ TEST(BlenderFunction, TakesEveryOperator) {
     }
 }
 
+TEST(BlenderFunction, LooksAllChannelsOfAnImageUpAtOnce) {
+    ir::Function f = function_of(ir::Op::sin, 1);
+    for (std::uint8_t channel = 0; channel < 3; ++channel) {
+        f.nodes.push_back({.kind = ir::Node::Kind::image, .channel = channel, .operands = {0, 1, 0}});
+    }
+    f.results = {2, 3, 4};
+    Writer out;
+    write_function(out, f, "f", {"wood"});
+    EXPECT_EQ(out.take(), "def f(g, p) -> \"Color\":\n"
+                          "    t1 = g.f(\"SINE\", p.x)\n"
+                          "    i0 = g.image(\"wood\", p.x, t1)\n"
+                          "    return i0.x, i0.y, i0.z\n");
+}
+
 TEST(BlenderFunction, LeavesOutNodesWithoutUse) {
     ir::Function f = function_of(ir::Op::sin, 1);
     f.results = {0};
@@ -253,7 +267,7 @@ TEST(BlenderMesh, ListsSmallArraysAndPacksLargeOnes) {
     mesh.indices.assign(150, 0);
     mesh.indices[1] = 258;
     Writer out;
-    write_mesh(out, ir::make_mesh("m", mesh));
+    write_mesh(out, ir::make_mesh("m", mesh), false);
     EXPECT_NE(out.text().find("points=[0.1, 2.0, -3.0]"), std::string::npos) << out.text();
     EXPECT_NE(out.text().find("indices=unpacked(\"<u2\", \"\"\"\n    AAACAQ"), std::string::npos)
         << out.text();

@@ -58,9 +58,10 @@ TEST_P(Golden, BackendsEmitTheReviewedText) {
     ASSERT_TRUE(c.fine) << c.messages;
     run_passes(c.scene);
     expect_golden(".ir", print(c.scene));
-    expect_golden(".cpp", emit_cpp(c.scene, Precision::full, Numbers::in_code, GetParam() + ".values").source);
+    expect_golden(".cpp",
+                  emit_cpp(c.scene, Precision::full, Numbers::in_code, GetParam() + ".values").source);
     Ledger ledger;
-    expect_golden(".pov", emit_pov(c.scene, ledger));
+    expect_golden(".pov", test::emit_pov(c.scene, ledger));
 }
 
 } // namespace

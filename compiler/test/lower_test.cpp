@@ -103,12 +103,106 @@ TEST(Lower, LightSaysWhereItIsInOneWay) {
     EXPECT_FALSE(compile("directional_light { }\nperspective_camera { }").fine);
 }
 
+TEST(Lower, SpotLightsHaveAConeAndRectangleLightsAGrid) {
+    const Compiled c = compile(
+        "spot_light { position = (0, 4, 0), target = (0, 1, 0), inner = 0deg, outer = 60deg }\n"
+        "rectangle_light { corner = (1, 2, 3), edge_u = (2, 0, 0), edge_v = (0, 0, 1), samples = (4, 2), "
+        "color = rgb(8, 8, 8) }\nperspective_camera { }\nsphere { }");
+    ASSERT_TRUE(c.fine) << c.messages;
+    const auto& spot = std::get<runtime::SpotLight<double>>(c.scene.lights.at(0).light);
+    EXPECT_EQ(spot.axis, (runtime::Vec3<double>{0, -1, 0}));
+    EXPECT_EQ(spot.cos_inner, 1);
+    EXPECT_NEAR(spot.cos_outer, 0.5, 1e-15);
+    const auto& rectangle = std::get<runtime::RectangleLight<double>>(c.scene.lights.at(1).light);
+    std::vector<runtime::PointLight<double>> points;
+    for_each_point(rectangle, [&](const auto& point) { points.push_back(point); });
+    ASSERT_EQ(points.size(), 8U);
+    EXPECT_EQ(points[1].position, (runtime::Vec3<double>{1.75, 2, 3.25}));
+    EXPECT_EQ(points[7].position, (runtime::Vec3<double>{2.75, 2, 3.75}));
+    EXPECT_EQ(points[7].diffuse, (runtime::Rgb<double>{1, 1, 1}));
+    for (const char* wrong :
+         {"spot_light { position = (0, 4, 0), target = (0, 4, 0) }", "spot_light { position = (0, 4, 0) }",
+          "spot_light { position = (0, 4, 0), target = (0, 0, 0), inner = 30deg }",
+          "rectangle_light { corner = (0, 0, 0), edge_u = (1, 1, 0), edge_v = (2, 2, 0) }"}) {
+        EXPECT_FALSE(compile(std::string(wrong) + "\nperspective_camera { }\nsphere { }").fine) << wrong;
+    }
+}
+
+TEST(Lower, QuadricWithinAContainerIsTheirIntersection) {
+    const Compiled c =
+        compile_shapes("quadric { squares = (1, 0, 1), within = box { } }\n"
+                       "difference {\n sphere { }\n quadric { within = sphere { radius = 0.5 } }\n}\n"
+                       "for (i in 0..2) { quadric { constant = -1 - i, within = box { } } }\n"
+                       "quadric { squares = (0, 0, 0), linear = (1, 0, 0) }");
+    ASSERT_TRUE(c.fine) << c.messages;
+    ASSERT_EQ(c.scene.objects.size(), 5U);
+    EXPECT_EQ(c.scene.objects[0].path, "quadric[0]");
+    ASSERT_TRUE(std::holds_alternative<runtime::Csg<double>>(c.scene.objects[0].shape));
+    EXPECT_EQ(c.scene.csg_nodes.at(0).op, runtime::CsgOp::intersect);
+    EXPECT_EQ(c.scene.members.at(0).path, "quadric[0]/surface");
+    EXPECT_EQ(c.scene.members.at(1).path, "quadric[0]/within");
+    EXPECT_TRUE(c.scene.csg_nodes.at(6).inverted) << "the difference takes it away";
+    EXPECT_TRUE(std::holds_alternative<runtime::Quadric<double>>(c.scene.objects[4].shape));
+    EXPECT_NE(compile_shapes("union { quadric { squares = (1, -1, 1) } }").messages.find("[unbounded-solid]"),
+              std::string::npos);
+    EXPECT_TRUE(compile_shapes("union { quadric { squares = (1, 2, 1) } }").fine)
+        << "an ellipsoid has bounds";
+}
+
+TEST(Lower, HeightfieldIsAMeshOfItsCells) {
+    const Compiled c = compile_shapes("let land = heightfield { field = fn(uv: vec2) = uv.x + 10 * uv.y, "
+                                      "size = (4, 2), height = 0.5, cells = "
+                                      "(2, 4) }\nland\ngroup { transform = translate(9, 0, 0)\n land }");
+    ASSERT_TRUE(c.fine) << c.messages;
+    ASSERT_EQ(c.scene.meshes.size(), 1U) << "one for both";
+    const ir::Mesh& mesh = c.scene.meshes[0];
+    EXPECT_EQ(mesh.name, "land");
+    EXPECT_EQ(mesh.indices.size(), 3U * 2 * 2 * 4);
+    EXPECT_EQ(mesh.positions.size(), 3U * 3 * 5);
+    for (std::size_t i = 0; i < mesh.positions.size(); i += 3) {
+        const float u = mesh.positions[i] / 4 + 0.5F, v = mesh.positions[i + 2] / 2 + 0.5F;
+        EXPECT_FLOAT_EQ(mesh.positions[i + 1], 0.5F * (u + 10 * v));
+        EXPECT_NEAR(mesh.normals[i] / mesh.normals[i + 1], -0.125, 1e-6);
+        EXPECT_NEAR(mesh.normals[i + 2] / mesh.normals[i + 1], -2.5, 1e-6);
+    }
+    const auto corner = [&](std::size_t k) {
+        const float* p = &mesh.positions[3 * mesh.indices[k]];
+        return runtime::Vec3<double>{p[0], p[1], p[2]};
+    };
+    EXPECT_GT(cross(corner(1) - corner(0), corner(2) - corner(0)).y, 0) << "the front is above";
+}
+
+TEST(Lower, PolylineIsBallsAndTubes) {
+    const Compiled c =
+        compile_shapes("let red = phong { diffuse = rgb(1, 0, 0) }\n"
+                       "polyline { points = [(0, 0, 0), (1, 0, 0), (1, 0, 0), (1, 1, 0)], radius = 0.1, "
+                       "color = rgb(0, 1, 0), material = red }\n"
+                       "difference {\n box { }\n polyline { points = [(0, 0, 0), (0, 2, 0)], radius = 0.1 "
+                       "}\n}");
+    ASSERT_TRUE(c.fine) << c.messages;
+    std::vector<std::string> paths;
+    for (const ir::Object& object : c.scene.objects) {
+        paths.push_back(object.path);
+    }
+    EXPECT_EQ(paths, (std::vector<std::string>{"polyline/ball[0]", "polyline/tube[0]", "polyline/ball[1]",
+                                               "polyline/tube[1]", "polyline/ball[2]", "difference"}));
+    EXPECT_EQ(c.scene.materials.at(c.scene.objects[0].sides.front).phong.diffuse.value,
+              (runtime::Rgb<double>{0, 1, 0}));
+    EXPECT_EQ(c.scene.members.size(), 4U);
+    EXPECT_TRUE(std::get<runtime::Cylinder<double>>(c.scene.members.at(2).shape).caps);
+}
+
 TEST(Lower, ReportsShapesThatEncloseNothing) {
     for (const char* shape :
          {"box { min = (0, 0, 0), max = (1, 0, 1) }", "cylinder { from = (1, 1, 1), to = (1, 1, 1) }",
           "cone { from = (1, 1, 1), to = (1, 1, 1) }", "cone { radius_from = 0 }",
           "disc { radius = 1, hole = 1 }", "triangle { points = [(0, 0, 0), (1, 1, 1), (2, 2, 2)] }",
-          "triangle { points = [(0, 0, 0), (1, 1, 1)] }", "sphere { transform = scale(1, 1, 0) }"}) {
+          "triangle { points = [(0, 0, 0), (1, 1, 1)] }", "sphere { transform = scale(1, 1, 0) }",
+          "torus { major = 1, minor = 1.01 }", "quadric { squares = (0, 0, 0) }",
+          "quadric { within = plane { } }", "polyline { points = [(1, 2, 3), (1, 2, 3)], radius = 1 }",
+          "polyline { points = [(0, 0, 0), (1, 1, 1)] }",
+          "heightfield { field = fn(uv: vec2) = 1 / (uv.x - 0.5), cells = (2, 2) }",
+          "difference {\n box { }\n heightfield { field = fn(uv: vec2) = 0 }\n}"}) {
         const Compiled c = compile_shapes(shape);
         EXPECT_FALSE(c.fine) << shape;
     }

@@ -35,10 +35,14 @@ protected:
     /// With the exposure that keeps the brightest pixel below 1, undone afterwards.
     Image theirs(const ir::Scene& scene, double exposure) {
         Ledger ledger;
-        test::save(folder_ / "scene.pov", emit_pov(scene, ledger));
+        ExportFiles beside{.stem = "scene"};
+        test::save(folder_ / "scene.pov", emit_pov(scene, ledger, beside));
+        for (const ExportFiles::File& file : beside.files) {
+            test::save(folder_ / file.name, file.bytes);
+        }
         const std::string picture = (folder_ / "scene.png").string();
         const std::string command =
-            "povray +I" + (folder_ / "scene.pov").string() + " +O" + picture + " +W" +
+            "cd " + (folder_ / "").string() + " && povray +Iscene.pov +Oscene.png +W" +
             std::to_string(scene.settings.width) + " +H" + std::to_string(scene.settings.height) +
             " +FN16 File_Gamma=1.0 -A -D +WT1 Declare=scc_exposure=" + std::to_string(exposure);
         EXPECT_EQ(test::run(command), 0) << command;
@@ -91,42 +95,62 @@ plane { material = phong { diffuse = rgb(0.4, 0.5, 0.6) } }
 const std::string camera = "perspective_camera { eye = (3, 4, 7), target = (0, 0.5, 0), fov_y = 45deg }\n";
 const std::string lamp = "point_light { position = (3, 6, 4), color = rgb(0.8, 0.7, 0.6) }\n";
 
-/// Every shape with its own material on either side, in a row, under a transform.
+/// A row per shape, and where each stands in the picture.
+struct PlacedShape {
+    const char *shape, *place;
+};
+constexpr PlacedShape every_shape[] = {
+    {"sphere { center = (0.1, 0, 0), radius = 0.5", "(-3, 0.9, -1)"},
+    {"box { min = (-0.4, -0.5, -0.3), max = (0.5, 0.4, 0.6)", "(-1.5, 0.9, -1)"},
+    {"cylinder { from = (0, -0.5, 0), to = (0.2, 0.5, 0), radius = 0.4", "(0, 0.9, -1)"},
+    {"cylinder { from = (0, -0.5, 0), to = (0.2, 0.5, 0), radius = 0.4, caps = false", "(1.5, 0.9, -1)"},
+    {"disc { normal = (0.3, 0.4, 1), radius = 0.6, hole = 0.2", "(3, 0.9, -1)"},
+    {"cone { from = (0, -0.5, 0), to = (0.2, 0.5, 0), radius_from = 0.4, radius_to = 0.15", "(-2.6, 0.9, 1)"},
+    {"cone { from = (0, -0.5, 0), to = (0.2, 0.5, 0), radius_from = 0, radius_to = 0.4, caps = false",
+     "(-1.3, 0.9, 1)"},
+    {"cone { from = (0, -0.3, 0), to = (0.1, 0.3, 0), radius_from = 0.3", "(0, 0.9, 1)"},
+    {"torus { center = (0, 0.1, 0), axis = (0.3, 0.5, 1), major = 0.45, minor = 0.15", "(1.3, 0.9, 1)"},
+    {"quadric { squares = (2, 3, 4), products = (0.5, 0, 1), linear = (0.2, 0, 0), constant = -0.8",
+     "(2.6, 0.9, 1)"},
+    {"triangle { points = [(-0.5, -0.4, 0), (0.6, -0.3, 0.1), (0, 0.6, 0)]", "(-2, 0.9, 2.6)"},
+    {"triangle { points = [(-0.5, -0.4, 0), (0, 0.6, 0), (0.6, -0.3, 0.1)]", "(-0.8, 0.9, 2.6)"},
+    {"quadric { squares = (1, -0.8, 1), constant = -0.05, within = box { min = (-0.4, -0.5, -0.4), max = "
+     "(0.4, "
+     "0.5, 0.4) }",
+     "(0.5, 0.9, 2.6)"},
+    {"heightfield { field = fn(uv: vec2) = 0.2 * sin(9 * uv.x) * cos(7 * uv.y), cells = (6, 5)",
+     "(1.8, 0.9, 2.6)"},
+    {"polyline { points = [(-0.3, -0.3, 0), (0.3, 0, 0.2), (-0.1, 0.4, 0)], radius = 0.12", "(-3, 0.9, 2.6)"},
+};
+/// From the identity to a mirror image.
+constexpr std::pair<const char*, const char*> transforms[] = {
+    {"identity", "scale(1)"},
+    {"rotated", "rotate((1, 2, 3), 40deg)"},
+    {"stretched", "scale(1.2, 0.7, 0.9) then rotate((1, 2, 3), 40deg)"},
+    {"sheared", "matrix([1, 0.3, 0, 0, 0, 0.8, 0.2, 0, 0.1, 0, 1, 0, 0, 0, 0, 1])"},
+    {"mirrored", "matrix([-1, 0.3, 0, 0, 0, 0.8, 0.2, 0, 0.1, 0, 1, 0, 0, 0, 0, 1])"},
+};
+
+/// All with their own material on either side.
 std::string shapes_under(const std::string& transform) {
-    const std::string sides = R"(
+    std::string text = room + lamp + R"(
+perspective_camera { eye = (3, 6, 8), target = (0, 0.6, 0.8), fov_y = 45deg }
 let front = phong { diffuse = rgb(0.7, 0.3, 0.2), specular = rgb(0.3, 0.1, 0.2), shininess = 20 }
 let back = phong { diffuse = rgb(0.2, 0.3, 0.8), specular = rgb(0.2, 0.2, 0.2) }
 let sides = two_sided { front = front, back = back }
 )";
-    std::string text = room + camera + lamp + sides;
-    const auto put = [&](const std::string& shape, const std::string& place) {
-        text += shape + ", material = sides, transform = " + transform + " then translate" + place + " }\n";
-    };
-    put("sphere { center = (0.1, 0, 0), radius = 0.6", "(-2.5, 0.8, 0)");
-    put("box { min = (-0.4, -0.5, -0.3), max = (0.5, 0.4, 0.6)", "(-1.2, 0.8, 0)");
-    put("cylinder { from = (0, -0.5, 0), to = (0.2, 0.5, 0), radius = 0.4", "(0, 0.8, 0)");
-    put("cylinder { from = (0, -0.5, 0), to = (0.2, 0.5, 0), radius = 0.4, caps = false", "(1.2, 0.8, 0)");
-    put("cone { from = (0, -0.5, 0), to = (0.2, 0.5, 0), radius_from = 0.4, radius_to = 0.15",
-        "(-2.3, 0.8, 2)");
-    put("cone { from = (0, -0.5, 0), to = (0.2, 0.5, 0), radius_from = 0, radius_to = 0.4, caps = false",
-        "(2.3, 0.8, 2)");
-    put("cone { from = (0, -0.3, 0), to = (0.1, 0.3, 0), radius_from = 0.3", "(0, 0.8, 3)");
-    put("disc { normal = (0.3, 0.4, 1), radius = 0.6, hole = 0.2", "(2.4, 0.8, 0)");
-    put("triangle { points = [(-0.5, -0.4, 0), (0.6, -0.3, 0.1), (0, 0.6, 0)]", "(-1, 0.8, 2)");
-    put("triangle { points = [(-0.5, -0.4, 0), (0, 0.6, 0), (0.6, -0.3, 0.1)]", "(1, 0.8, 2)");
+    for (const auto& [shape, place] : every_shape) {
+        text += std::string(shape) + ", material = sides, transform = " + transform + " then translate" +
+                place + " }\n";
+    }
     return text;
 }
 
-TEST_F(PovRender, DrawsEveryShape) {
-    expect_same_picture(shapes_under("scale(1)"));
-}
-
-TEST_F(PovRender, DrawsRotatedAndStretchedShapes) {
-    expect_same_picture(shapes_under("scale(1.2, 0.7, 0.9) then rotate((1, 2, 3), 40deg)"));
-}
-
-TEST_F(PovRender, DrawsShearedMirrorImages) {
-    expect_same_picture(shapes_under("matrix([-1, 0.3, 0, 0, 0, 0.8, 0.2, 0, 0.1, 0, 1, 0, 0, 0, 0, 1])"));
+TEST_F(PovRender, DrawsEveryShapeUnderEveryTransform) {
+    for (const auto& [name, transform] : transforms) {
+        SCOPED_TRACE(name);
+        expect_same_picture(shapes_under(transform), 1);
+    }
 }
 
 TEST_F(PovRender, CutsSolids) {
@@ -148,6 +172,13 @@ intersection {
   sphere { radius = 0.9 }
   cone { from = (0, -1, 0), to = (0, 1, 0), radius_from = 1, radius_to = 0.3, material = sides }
   plane { normal = (0.5, 0, 1), offset = 0.3, material = red }
+}
+difference {
+  material = red
+  transform = scale(1, 0.8, 1) then translate(-1.5, 0.5, 2.6)
+  torus { major = 0.6, minor = 0.3 }
+  torus { center = (0, 0.2, 0), axis = (1, 0.2, 0), major = 0.5, minor = 0.12, material = blue }
+  quadric { squares = (9, -6, 9), products = (0, 2, 0), constant = -1, material = sides }
 }
 union { sphere { center = (0, 0.4, 2.5), radius = 0.4, material = red }, box { min = (0, 0, 2), max = (1, 0.5, 2.6), material = blue } }
 )";
@@ -211,6 +242,20 @@ TEST_F(PovRender, FadesLights) {
                             "rgb(3, 2, 2), attenuation = " +
                             std::string(law) + " }\n");
     }
+}
+
+TEST_F(PovRender, ShinesFromConesAndRectangles) {
+    expect_same_picture(room + camera + R"(
+sphere { center = (0, 1, 0), material = phong { specular = rgb(0.3, 0.2, 0.1) } }
+spot_light { position = (2, 4, 3), target = (0, 0.5, 0), color = rgb(0.8, 0.4, 0.3), specular = rgb(0.2, 0.6, 0.3) }
+spot_light { position = (-3, 4, 3), target = (-1, 0, 1), inner = 12deg, outer = 12deg, color = rgb(0.3, 0.6, 0.3), attenuation = (0.5, 0.1, 0) }
+spot_light { position = (-3, 3, -1), target = (0, 0, 1), inner = 5deg, outer = 50deg, exponent = 7, color = rgb(0.2, 0.3, 0.7), attenuation = (1, 0.3, 0.08) }
+rectangle_light { corner = (2, 3, -2), edge_u = (1, 0, 0), edge_v = (0, 0.5, 1), samples = (3, 2), color = rgb(0.4, 0.4, 0.4) }
+)");
+    expect_same_picture(room + camera + R"(
+sphere { center = (0, 1, 0) }
+rectangle_light { corner = (1, 3, 2), edge_u = (2, 0, 0), edge_v = (0, 0.5, 1), samples = (2, 3), color = rgb(4, 3, 2), attenuation = (1, 0.3, 0.08) }
+)");
 }
 
 TEST_F(PovRender, GivesHighlightsTheirOwnColor) {
@@ -281,6 +326,19 @@ TEST_F(PovRender, AcceptsNamesThatAreCode) {
     c.scene.settings.width = 8;
     c.scene.settings.height = 6;
     theirs(c.scene, 1);
+}
+
+TEST_F(PovRender, NoiseAndRandomComeFromTables) {
+    expect_same_picture(camera + lamp + R"(
+world { ambient = rgb(0.3, 0.3, 0.3) }
+fn worn(s: surface) -> color = rgb(0.8, 0.6, 0.3) * (1 - 0.7 * noise(s.p * 6))
+fn windy(s: surface) -> color = rgb(noise(s.world * 3), noise((4 * s.p.x, -2 * s.p.y)), 0.5)
+fn tiled(s: surface) -> color = rgb(1, 1, 1) * random(floor(4 * s.p.x), floor(4 * s.p.y) + 0 * 3, 7)
+sphere { radius = 1.1, material = phong { diffuse = worn }, transform = scale(1, 0.8, 1) then translate(-2, 0.8, 0) }
+box { max = (1, 1.01, 1), material = phong { diffuse = tiled }, transform = rotate_y(20deg) then translate(0.6, 0.6, -0.5) }
+cone { radius_from = 1, material = phong { diffuse = windy }, transform = scale(1, 1.5, 1) then translate(2.6, 0, 1) }
+)",
+                        4);
 }
 
 } // namespace

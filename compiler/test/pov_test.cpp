@@ -26,7 +26,7 @@ struct Exported {
 Exported exported(ir::Scene scene) {
     run_passes(scene);
     Exported result;
-    result.text = emit_pov(scene, result.ledger);
+    result.text = test::emit_pov(scene, result.ledger);
     return result;
 }
 
@@ -94,7 +94,7 @@ TEST(Pov, SourceLinesStandInTheComments) {
     lang::SourceSet sources;
     sources.add("/home/somebody/scenes/test.scn", "\n\nsphere { }\nperspective_camera { }\n");
     Ledger ledger;
-    const std::string text = emit_pov(c.scene, ledger, sources);
+    const std::string text = test::emit_pov(c.scene, ledger, &sources);
     EXPECT_TRUE(has(text, "(test.scn:3)"));
     EXPECT_FALSE(has(text, "somebody"));
 }
@@ -162,7 +162,7 @@ TEST(Pov, FlatTrianglesKeepTheirFrontInMirrorImages) {
             "triangle { points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)], transform = " + transform + " }");
         EXPECT_TRUE(c.fine) << c.messages;
         Ledger ledger;
-        return emit_pov(c.scene, ledger);
+        return test::emit_pov(c.scene, ledger);
     };
     EXPECT_TRUE(has(corners("scale(2, 1, 1)"), "<0.0, 0.0, 0.0>, <0.0, 1.0, 0.0>, <2.0, 0.0, 0.0>"));
     EXPECT_TRUE(has(corners("scale(-2, 1, 1)"), "<0.0, 0.0, 0.0>, <-2.0, 0.0, 0.0>, <0.0, 1.0, 0.0>"));
@@ -332,7 +332,7 @@ TEST(Pov, NamesCannotLeaveTheirPlace) {
     c.scene.lights[0].name = bad;
     c.scene.functions[0].name = bad;
     Ledger ledger;
-    const std::string text = emit_pov(c.scene, ledger);
+    const std::string text = test::emit_pov(c.scene, ledger);
     for (std::size_t at = 0; at < text.size(); at = text.find('\n', at) + 1) {
         const std::string line = text.substr(at, text.find('\n', at) - at);
         if (const auto found = line.find("passwd"); found != std::string::npos) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "compiler/backends/pov.h"
 #include "compiler/lower.h"
 #include "compiler/passes/passes.h"
 #include "compiler/schema.h"
@@ -45,6 +46,13 @@ inline Compiled compile(std::string text, LowerOptions options = {}) {
 /// With a camera and a light, so that nothing is said about their absence.
 inline Compiled compile_shapes(const std::string& shapes) {
     return compile(shapes + "\nperspective_camera { }\npoint_light { position = (0, 5, 5) }\n");
+}
+
+/// The export to POV-Ray of a scene without images.
+inline std::string emit_pov(const ir::Scene& scene, Ledger& ledger,
+                            const lang::SourceSet* sources = nullptr) {
+    ExportFiles files{.stem = "scene"};
+    return compiler::emit_pov(scene, ledger, files, sources);
 }
 
 } // namespace scc::compiler::test

@@ -10,6 +10,7 @@ namespace {
 
 using test::messages_of;
 using test::Scene;
+using test::value_of;
 
 constexpr const char* add = "fn add(x: number, y: number = 2) = x + y\n";
 
@@ -50,10 +51,24 @@ a.scn:2:11: note: the first value is here
     2 | print(add(x = 1, 2))
       |                  ^
 )");
-    EXPECT_EQ(messages_of("print(sqrt(x = 2))"),
-              R"(a.scn:1:12: error: `sqrt` takes arguments by position only [named-argument]
-    1 | print(sqrt(x = 2))
-      |            ^
+    EXPECT_EQ(messages_of("print(len(list = [2]))"),
+              R"(a.scn:1:11: error: `len` takes arguments by position only [named-argument]
+    1 | print(len(list = [2]))
+      |           ^~~~
+)");
+}
+
+TEST(Calls, BuiltInFunctionsTakeArgumentsByName) {
+    EXPECT_EQ(value_of("mix(t = 0.25, a = 4, b = 8)"), "5");
+    EXPECT_EQ(value_of("clamp(7, high = 5, low = 0)"), "5");
+    EXPECT_EQ(value_of("translate(x = 1, z = 3, y = 2)"), value_of("translate(1, 2, 3)"));
+    EXPECT_EQ(Scene("print(mix(1, b = 2, 0.5))").summary(), "1 unnamed-argument\n");
+    EXPECT_EQ(Scene("print(mix(1, 2, a = 3))").summary(), "1 duplicate-argument\n");
+    EXPECT_EQ(messages_of("print(clamp(7, 0, hihg = 5))"),
+              R"(a.scn:1:19: error: `clamp` has no parameter `hihg`; did you mean `high`? [unknown-argument]
+    1 | print(clamp(7, 0, hihg = 5))
+      |                   ^~~~
+      |                   high
 )");
 }
 

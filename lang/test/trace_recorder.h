@@ -43,7 +43,8 @@ inline std::string trace_thing(const Thing& thing, Diagnostics& diagnostics) {
             text += trace_thing(**inner, diagnostics);
         } else if (const auto* function = std::get_if<ClosurePtr>(&field.value.v)) {
             Recorder recorder;
-            for (const Scalar& scalar : trace(*function, recorder, diagnostics)) {
+            const Components parts = trace(*function, recorder, diagnostics);
+            for (const Scalar& scalar : std::span(parts.v).first(parts.count)) {
                 text += recorder.text(scalar) + "\n";
             }
         }

@@ -4,6 +4,7 @@
 #include "runtime/host/image_file.h"
 #include "runtime/host/progress.h"
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cstdio>
@@ -64,8 +65,18 @@ std::string member(std::string_view name, const T& value) {
     return json(name) + ": " + json(value);
 }
 
+/// Pixels of colours that Rec.709 cannot show: some part is negative. Files of float keep them.
+std::uint64_t out_of_gamut(const runtime::Image& image) {
+    std::uint64_t count = 0;
+    for (std::size_t i = 0; i + 2 < image.pixels.size(); i += 3) {
+        count += std::min({image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]}) < 0 ? 1 : 0;
+    }
+    return count;
+}
+
 std::string statistics(const Drawable& drawable, const runtime::RenderRequest& request,
-                       const runtime::RenderResult& result, double render_ms, double write_ms) {
+                       const runtime::RenderResult& result, const runtime::Image& image, double render_ms,
+                       double write_ms) {
     std::vector<std::string> times;
     double total = render_ms + write_ms;
     for (const std::string_view stage : {"parse", "check", "lower", "passes", "accel", "precision"}) {
@@ -101,6 +112,7 @@ std::string statistics(const Drawable& drawable, const runtime::RenderRequest& r
                              member("reflected", rays.reflected), member("refracted", 0),
                              member("undecided", rays.undecided), member("at_jumps", rays.at_jumps)},
                             4),
+        member("out_of_gamut", out_of_gamut(image)),
         member("mrays_per_s", render_ms > 0 ? count / render_ms / 1000 : 0.0),
         member("peak_rss_mb", peak_rss_mb()),
         "\"features\": " + list("[]", features, 4)};
@@ -136,7 +148,7 @@ int draw(const Drawable& drawable, const RenderOptions& options) {
     const double write_ms = milliseconds_since(write_start);
 
     if (!options.stats.empty()) {
-        const std::string text = statistics(drawable, request, result, render_ms, write_ms);
+        const std::string text = statistics(drawable, request, result, image, render_ms, write_ms);
         if (options.stats == "-") {
             std::fwrite(text.data(), 1, text.size(), stdout);
         } else {

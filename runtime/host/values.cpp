@@ -12,6 +12,9 @@ namespace {
 /// A table's rows start on a multiple of this, so that vectors may be loaded from a mapped file.
 constexpr std::size_t alignment = 64;
 
+/// Rows of an image's table.
+constexpr std::size_t decoded_codes = 256;
+
 struct alignas(alignment) TableHead {
     std::uint64_t row_size = 0;
     std::uint64_t rows = 0;
@@ -45,6 +48,9 @@ void ValuesWriter::add(const std::vector<runtime::MeshData>& meshes) {
         add(std::span(mesh.triangles, runtime::triangle_words(mesh.triangle_count)));
         add(std::span(mesh.normals, std::size_t{3} * mesh.normal_count));
         add(std::span(mesh.normal_indices, normal_indices));
+        const std::size_t uv_indices = mesh.uvs != nullptr ? std::size_t{3} * mesh.triangle_count : 0;
+        add(std::span(mesh.uvs, std::size_t{2} * mesh.uv_count));
+        add(std::span(mesh.uv_indices, uv_indices));
         add(std::span<const float>(mesh.min));
         add(std::span<const float>(mesh.max));
     }
@@ -55,12 +61,14 @@ void Values::read(std::vector<runtime::MeshData>& meshes) {
     read(count);
     for (std::uint64_t i = 0; i < count; ++i) {
         std::span<const runtime::BvhNode> nodes;
-        std::span<const float> triangles, normals;
-        std::span<const std::uint32_t> normal_indices;
+        std::span<const float> triangles, normals, uvs;
+        std::span<const std::uint32_t> normal_indices, uv_indices;
         read(nodes);
         read(triangles);
         read(normals);
         read(normal_indices);
+        read(uvs);
+        read(uv_indices);
         runtime::MeshData mesh;
         mesh.nodes = nodes.data();
         mesh.triangles = triangles.data();
@@ -68,12 +76,61 @@ void Values::read(std::vector<runtime::MeshData>& meshes) {
             mesh.normals = normals.data();
             mesh.normal_indices = normal_indices.data();
         }
+        if (!uvs.empty()) {
+            mesh.uvs = uvs.data();
+            mesh.uv_indices = uv_indices.data();
+        }
+        mesh.uv_count = static_cast<std::uint32_t>(uvs.size() / 2);
         mesh.node_count = static_cast<std::uint32_t>(nodes.size());
         mesh.triangle_count = runtime::triangles_in(triangles.size());
         mesh.normal_count = static_cast<std::uint32_t>(normals.size() / 3);
         read(mesh.min);
         read(mesh.max);
         meshes.push_back(mesh);
+    }
+}
+
+void ValuesWriter::add(const std::vector<runtime::ImageData>& images) {
+    add(static_cast<std::uint64_t>(images.size()));
+    for (const runtime::ImageData& image : images) {
+        add(std::span(image.codes, image.codes != nullptr ? image.size() : 0));
+        add(std::span(image.values, image.codes != nullptr ? 0 : image.size()));
+        add(std::span(image.decoded, image.codes != nullptr ? decoded_codes : 0));
+        const std::array<std::uint32_t, 5> layout{image.width, image.height, image.channels,
+                                                  static_cast<std::uint32_t>(image.wrap),
+                                                  static_cast<std::uint32_t>(image.filter)};
+        add(std::span<const std::uint32_t>(layout));
+        add(std::span<const float>(image.min));
+        add(std::span<const float>(image.max));
+    }
+}
+
+void Values::read(std::vector<runtime::ImageData>& images) {
+    std::uint64_t count = 0;
+    read(count);
+    for (std::uint64_t i = 0; i < count; ++i) {
+        std::span<const std::uint8_t> codes;
+        std::span<const float> values, decoded;
+        std::array<std::uint32_t, 5> layout{};
+        runtime::ImageData& image = images.emplace_back();
+        read(codes);
+        read(values);
+        read(decoded);
+        read(layout);
+        read(image.min);
+        read(image.max);
+        image.codes = codes.empty() ? nullptr : codes.data();
+        image.values = values.empty() ? nullptr : values.data();
+        image.decoded = decoded.data();
+        image.width = layout[0];
+        image.height = layout[1];
+        image.channels = layout[2];
+        image.wrap = static_cast<runtime::Wrap>(layout[3]);
+        image.filter = static_cast<runtime::Filter>(layout[4]);
+        if (image.codes != nullptr ? codes.size() != image.size() || decoded.size() != decoded_codes
+                                   : values.size() != image.size()) {
+            fail("are not those of its code");
+        }
     }
 }
 

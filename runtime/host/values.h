@@ -1,6 +1,7 @@
 #pragma once
 
 #include "runtime/mesh_data.h"
+#include "runtime/texture.h"
 
 #include <array>
 #include <cstddef>
@@ -36,6 +37,7 @@ public:
     }
     void add_text(std::string_view text) { add(std::span(text.data(), text.size())); }
     void add(const std::vector<runtime::MeshData>& meshes);
+    void add(const std::vector<runtime::ImageData>& images);
 
     bool empty() const { return bytes_.empty(); }
     /// To avoid copies where the size is roughly known.
@@ -51,7 +53,8 @@ private:
     static void clear_padding([[maybe_unused]] T& row) {
         if constexpr (requires { row.shape.points; }) {
             // g++ 12 takes members of nested arrays for padding.
-            clear_between(&row.shape.smooth + 1, &row.shape + 1);
+            clear_between(&row.shape.smooth + 1, &row.shape.uvs);
+            clear_between(&row.shape.has_uvs + 1, &row.shape + 1);
             clear_between(&row.tag + 1, &row + 1);
         } else {
 #if defined(__has_builtin)
@@ -94,6 +97,7 @@ public:
         std::memcpy(&value, next_of(sizeof(T), 1), sizeof(T));
     }
     void read(std::vector<runtime::MeshData>& meshes);
+    void read(std::vector<runtime::ImageData>& images);
     std::string read_text();
 
 private:

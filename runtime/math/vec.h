@@ -25,6 +25,14 @@ struct Vec3 {
     friend constexpr Vec3 operator/(const Vec3& a, const R& s) { return {a.x / s, a.y / s, a.z / s}; }
 };
 
+/// Coordinates on a surface.
+template <class R>
+struct Vec2 {
+    R x{}, y{};
+
+    friend constexpr bool operator==(const Vec2& a, const Vec2& b) { return a.x == b.x && a.y == b.y; }
+};
+
 /// Linear light, Rec.709 primaries; not clamped.
 template <class R>
 struct Rgb {
@@ -44,6 +52,10 @@ struct Rgb {
 template <class L, class R>
 constexpr Vec3<L> lanes(const Vec3<R>& v) {
     return {L(v.x), L(v.y), L(v.z)};
+}
+template <class L, class R>
+constexpr Vec2<L> lanes(const Vec2<R>& v) {
+    return {L(v.x), L(v.y)};
 }
 template <class L, class R>
 constexpr Rgb<L> lanes(const Rgb<R>& c) {
@@ -87,6 +99,10 @@ template <class L>
 constexpr Vec3<L> choose(const MaskOf<L>& mask, const Vec3<L>& where_true, const Vec3<L>& where_false) {
     return {choose(mask, where_true.x, where_false.x), choose(mask, where_true.y, where_false.y),
             choose(mask, where_true.z, where_false.z)};
+}
+template <class L>
+constexpr Vec2<L> choose(const MaskOf<L>& mask, const Vec2<L>& where_true, const Vec2<L>& where_false) {
+    return {choose(mask, where_true.x, where_false.x), choose(mask, where_true.y, where_false.y)};
 }
 template <class L>
 constexpr Rgb<L> choose(const MaskOf<L>& mask, const Rgb<L>& where_true, const Rgb<L>& where_false) {

@@ -2,6 +2,7 @@
 
 #include "runtime/math/vec.h"
 #include "runtime/ray.h"
+#include "runtime/shapes/uv.h"
 
 /// What shapes that are round about an axis between two points share.
 namespace scc::runtime {
@@ -68,6 +69,23 @@ template <class R>
 constexpr Vec3<R> disc_reach(const Vec3<R>& axis, R radius) {
     const auto reach = [&](R cosine) { return radius * square_root(maximum(R(0), 1 - cosine * cosine)); };
     return {reach(axis.x), reach(axis.y), reach(axis.z)};
+}
+
+/// Of a point on the side (part 0): the way around the axis and along it from 0 to 1, as around() sees the
+/// axis y; on a cap (parts 1 and 2): 0 to 1 over the square around it.
+template <class R, class L>
+constexpr Vec2<L> uv_about_axis(const Vec3<R>& from, const Vec3<R>& to, R radius_from, R radius_to,
+                                const IndexOf<L>& part, const Vec3<L>& point) {
+    const Vec3<R> axis = to - from;
+    const R height = length(axis);
+    const Vec3<R> up = axis * (1 / height);
+    const PlanarAxes<R> axes = planar_axes(up);
+    const Vec3<L> d = point - lanes<L>(from);
+    const Vec2<L> side{around(dot(d, lanes<L>(axes.u)), -dot(d, lanes<L>(axes.v))),
+                       dot(d, lanes<L>(up)) * L(1 / height)};
+    const Vec2<L> at_from = on_square(d, -up, L(radius_from));
+    const Vec2<L> at_to = on_square(point - lanes<L>(to), up, L(radius_to));
+    return choose(part == IndexOf<L>(0), side, choose(part == IndexOf<L>(1), at_from, at_to));
 }
 
 } // namespace scc::runtime

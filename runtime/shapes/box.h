@@ -76,6 +76,19 @@ struct Box {
         return {point, lanes<L>(magnitude) * (4 * roundoff<L>()), normal, normal};
     }
 
+    /// 0 to 1 over each face, as it is seen from outside with y upwards; on those across y, -z goes up at the
+    /// top and z at the bottom.
+    template <class L>
+    constexpr Vec2<L> uv(const Ray<L>&, const ShapeHit<L>& hit, const Vec3<L>& point) const {
+        const auto along = [](const L& p, R low, R high) { return (p - L(low)) * L(1 / (high - low)); };
+        const L x = along(point.x, min.x, max.x), y = along(point.y, min.y, max.y);
+        const L z = along(point.z, min.z, max.z);
+        const auto is = [&](std::uint32_t face) { return hit.part == IndexOf<L>(face); };
+        const L u = choose(is(0), z, choose(is(1), 1 - z, choose(is(4), 1 - x, x)));
+        const L v = choose(is(2), z, choose(is(3), 1 - z, y));
+        return {u, v};
+    }
+
 private:
     /// Where a ray is between two planes. A ray along them is so always or never; on one of them it is.
     template <class L>

@@ -70,6 +70,11 @@ struct Cylinder {
         return {point, absolute(point) * (4 * u) + absolute(normal) * (32 * u * size), normal, normal};
     }
 
+    template <class L>
+    constexpr Vec2<L> uv(const Ray<L>&, const ShapeHit<L>& hit, const Vec3<L>& point) const {
+        return uv_about_axis(from, to, radius, radius, hit.part, point);
+    }
+
 private:
     template <class L>
     static constexpr ShapeHit<L> intersect_open(const Ray<L>& ray, const AxisFrame<L>& f,

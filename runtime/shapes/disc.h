@@ -4,6 +4,7 @@
 #include "runtime/field.h"
 #include "runtime/math/vec.h"
 #include "runtime/ray.h"
+#include "runtime/shapes/uv.h"
 
 #include <string_view>
 #include <tuple>
@@ -61,6 +62,12 @@ struct Disc {
         const Vec3<L> point = c + (from_center - n * dot(n, from_center));
         // 16 radii: n.(c - p), here and in intersect.
         return {point, absolute(point) * (2 * u) + absolute(n) * (16 * u * L(radius)), n, n};
+    }
+
+    /// 0 to 1 over the square around the disc.
+    template <class L>
+    constexpr Vec2<L> uv(const Ray<L>&, const ShapeHit<L>&, const Vec3<L>& point) const {
+        return on_square(point - lanes<L>(center), normal, L(radius));
     }
 };
 

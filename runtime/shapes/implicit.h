@@ -21,6 +21,12 @@ struct Implicit {
     Container<R> within{};
 
     constexpr Bounds<R> bounds() const { return within.bounds(); }
+
+    /// As POV-Ray has it for what has no coordinates of its own.
+    template <class L>
+    constexpr Vec2<L> uv(const Ray<L>&, const ShapeHit<L>&, const Vec3<L>& point) const {
+        return {point.x, point.y};
+    }
 };
 
 /// Of the rays since the thread began: those for which it remained open somewhere, within rounding, whether
@@ -187,13 +193,6 @@ L finest_step(const Ray<L>& ray, const L& from, const L& to) {
 }
 
 } // namespace detail
-
-/// Where a ray passes through a solid's surface.
-template <class L>
-struct Crossing {
-    ShapeHit<L> hit;
-    MaskOf<L> outwards; ///< where there is a hit: the ray leaves the solid
-};
 
 /// The first point of the solid's surface in each ray's range. Which one it is does not depend on t_max;
 /// called again with t_min behind a hit it gives the next. What the ray's start lies on, within rounding, is

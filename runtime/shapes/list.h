@@ -8,7 +8,9 @@
 #include "runtime/shapes/implicit.h"
 #include "runtime/shapes/mesh.h"
 #include "runtime/shapes/plane.h"
+#include "runtime/shapes/quadric.h"
 #include "runtime/shapes/sphere.h"
+#include "runtime/shapes/torus.h"
 #include "runtime/shapes/triangle.h"
 
 namespace scc::runtime {
@@ -18,8 +20,8 @@ struct TypeList {};
 
 /// The one list of shapes. A new shape is its header and a row here.
 template <class R>
-using Primitives =
-    TypeList<Sphere<R>, Box<R>, Plane<R>, Cylinder<R>, Cone<R>, Disc<R>, Triangle<R>, Mesh<R>, Implicit<R>>;
+using Primitives = TypeList<Sphere<R>, Box<R>, Plane<R>, Cylinder<R>, Cone<R>, Disc<R>, Triangle<R>, Mesh<R>,
+                            Implicit<R>, Torus<R>, Quadric<R>>;
 
 template <class List, class Last>
 struct Appended;

@@ -4,6 +4,7 @@
 #include "runtime/field.h"
 #include "runtime/math/vec.h"
 #include "runtime/ray.h"
+#include "runtime/shapes/uv.h"
 
 #include <string_view>
 #include <tuple>
@@ -46,7 +47,7 @@ struct Plane {
                 choose(slope > 0, t, choose(slope < 0, inf, everywhere))};
     }
     /// A box around what lies behind the plane, as far as that has bounds.
-    constexpr Bounds<R> half_space_bounds() const {
+    constexpr Bounds<R> inside_bounds() const {
         Bounds<R> box{{-infinity<R>(), -infinity<R>(), -infinity<R>()},
                       {infinity<R>(), infinity<R>(), infinity<R>()}};
         const R limit = offset + 16 * roundoff<R>() * absolute(offset);
@@ -67,6 +68,13 @@ struct Plane {
         const Vec3<L> point = reached - n * (dot(n, reached) - L(offset));
         // n.p takes 4 roundings of its terms, here and in intersect; |offset| is at most their sum.
         return {point, absolute(point) * (16 * roundoff<L>()), n, n};
+    }
+
+    /// Lengths from the origin's foot along the plane's axes.
+    template <class L>
+    constexpr Vec2<L> uv(const Ray<L>&, const ShapeHit<L>&, const Vec3<L>& point) const {
+        const PlanarAxes<R> axes = planar_axes(normal);
+        return {dot(point, lanes<L>(axes.u)), dot(point, lanes<L>(axes.v))};
     }
 };
 

@@ -5,6 +5,7 @@
 #include "runtime/math/vec.h"
 #include "runtime/ray.h"
 #include "runtime/shapes/quadratic.h"
+#include "runtime/shapes/uv.h"
 
 #include <string_view>
 #include <tuple>
@@ -61,6 +62,14 @@ struct Sphere {
         // each, which is 4 of r in distance, and the normal's and the product's own.
         const Vec3<L> error = absolute(point) * (2 * u) + absolute(normal) * (16 * u * L(radius));
         return {point, error, normal, normal};
+    }
+
+    /// Longitude and latitude about the y axis, 0 to 1: the middle of a picture faces the z axis.
+    template <class L>
+    constexpr Vec2<L> uv(const Ray<L>&, const ShapeHit<L>&, const Vec3<L>& point) const {
+        const Vec3<L> d = point - lanes<L>(center);
+        return {around(d.x, d.z),
+                arc_tangent(d.y, square_root(d.x * d.x + d.z * d.z)) * inverse_pi<L>() + RealOf<L>(0.5)};
     }
 };
 

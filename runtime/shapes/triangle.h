@@ -21,12 +21,16 @@ struct Triangle {
     std::array<Vec3<R>, 3> points{};
     std::array<Vec3<R>, 3> normals{};
     bool smooth = false;
+    std::array<Vec2<R>, 3> uvs{{{0, 0}, {1, 0}, {0, 1}}};
+    bool has_uvs = false; ///< the author's
 
     static constexpr auto fields() {
         return std::tuple{required_field("points", &Triangle::points, Rule::any, "the three corners"),
                           optional_field("normals", &Triangle::normals, &Triangle::smooth,
                                          Rule::nonzero_vector,
-                                         "normals at the corners, interpolated for shading")};
+                                         "normals at the corners, interpolated for shading"),
+                          optional_field("uvs", &Triangle::uvs, &Triangle::has_uvs, Rule::any,
+                                         "`s.uv` at the corners; else (0, 0), (1, 0) and (0, 1)")};
     }
 
     constexpr Bounds<R> bounds() const {
@@ -58,6 +62,17 @@ struct Triangle {
             result.shading_normal = interpolate_normal(n, weights, result.normal);
         }
         return result;
+    }
+
+    /// Barycentric.
+    template <class L>
+    constexpr Vec2<L> uv(const Ray<L>& ray, const ShapeHit<L>&, const Vec3<L>&) const {
+        const Corners<L> corners{lanes<L>(points[0]), lanes<L>(points[1]), lanes<L>(points[2])};
+        const Vec3<L> weights = barycentric(corners, ray);
+        const auto interpolate = [&](R a, R b, R c) {
+            return L(a) * weights.x + L(b) * weights.y + L(c) * weights.z;
+        };
+        return {interpolate(uvs[0].x, uvs[1].x, uvs[2].x), interpolate(uvs[0].y, uvs[1].y, uvs[2].y)};
     }
 };
 

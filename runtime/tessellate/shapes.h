@@ -215,6 +215,37 @@ Triangles<R> tessellate(const Cone<R>& c, const Tolerance<R>& tolerance) {
     return detail::tube(c.from, c.to, c.radius_from, c.radius_to, c.caps, tolerance);
 }
 
+/// A grid of quadrangles: a fine tube needs as many around it as its own circle, and as many along it as the
+/// outer one.
+template <class R>
+Triangles<R> tessellate(const Torus<R>& torus, const Tolerance<R>& tolerance) {
+    // What the two circles are inside adds up.
+    const Tolerance<R> half{tolerance.distance / 2, tolerance.angle / 2};
+    const int along = detail::circle_segments(torus.major + torus.minor, half),
+              around = detail::circle_segments(torus.minor, half);
+    Triangles<R> mesh;
+    const auto outwards = detail::directions_around(torus.axis, along);
+    for (int i = 0; i < along; ++i) {
+        for (int k = 0; k < around; ++k) {
+            const R turn = 2 * std::numbers::pi_v<R> * R(k) / R(around);
+            const Vec3<R>& out = outwards[static_cast<std::size_t>(i)];
+            const Vec3<R> normal = out * std::cos(turn) + torus.axis * std::sin(turn);
+            mesh.add_position(torus.center + out * torus.major + normal * torus.minor);
+            mesh.add_normal(normal);
+        }
+    }
+    const auto at = [&](int i, int k) {
+        return static_cast<std::uint32_t>((i % along) * around + k % around);
+    };
+    for (int i = 0; i < along; ++i) {
+        for (int k = 0; k < around; ++k) {
+            mesh.add_smooth(at(i, k), at(i + 1, k), at(i + 1, k + 1));
+            mesh.add_smooth(at(i, k), at(i + 1, k + 1), at(i, k + 1));
+        }
+    }
+    return mesh;
+}
+
 template <class R>
 Triangles<R> tessellate(const Disc<R>& disc, const Tolerance<R>& tolerance) {
     Triangles<R> mesh;
@@ -255,7 +286,7 @@ Triangles<R> tessellate(const Triangle<R>& triangle, const Tolerance<R>&) {
 /// Of a plane, which is unbounded, what lies in the ball: a square around it.
 template <class R>
 Triangles<R> tessellate(const Plane<R>& plane, const Ball<R>& extent) {
-    const auto [u, v] = detail::frame_around(plane.normal);
+    const auto [u, v] = frame_around(plane.normal);
     const Vec3<R> middle = extent.center + plane.normal * (plane.offset - dot(plane.normal, extent.center));
     Triangles<R> mesh;
     for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {

@@ -19,11 +19,13 @@ namespace scc::runtime {
 template <class R>
 struct SmoothSurface {
     enum class Kind : std::uint8_t {
-        plane, ///< w . p - radius
-        ball,  ///< about origin
-        tube,  ///< about the line through origin along w
-        cone,  ///< the same, of radius + slope * height
-        field  ///< the scene's field_function
+        plane,   ///< w . p - radius
+        ball,    ///< about origin
+        tube,    ///< about the line through origin along w
+        cone,    ///< the same, of radius + slope * height
+        torus,   ///< about the circle of `radius` around the line, with a tube of radius `slope`
+        quadric, ///< u . (x^2, y^2, z^2) + v . (x y, y z, z x) + w . p + radius
+        field    ///< the scene's field_function
     };
     Kind kind = Kind::plane;
     Vec3<R> origin{};
@@ -200,6 +202,13 @@ private:
         case Surface::Kind::cone:
             return square_root(square(along(s.u, q)) + square(along(s.v, q))) -
                    (T(s.radius) + T(s.slope) * along(s.w, q));
+        case Surface::Kind::torus: {
+            const T across = square_root(square(along(s.u, q)) + square(along(s.v, q))) - T(s.radius);
+            return (square(across) + square(along(s.w, q)) - T(s.slope * s.slope)) * T(1 / (2 * s.slope));
+        }
+        case Surface::Kind::quadric:
+            return along(s.u, {square(p.x), square(p.y), square(p.z)}) +
+                   along(s.v, {p.x * p.y, p.y * p.z, p.z * p.x}) + along(s.w, p) + T(s.radius);
         case Surface::Kind::field:
             break;
         }
@@ -431,6 +440,20 @@ private:
             add_face(face, plane(-side.w, -dot(side.w, from)), 1);
             add_face(face, plane(side.w, dot(side.w, to)), 2);
         });
+    }
+    void add_shape(const Torus<R>& t, const Face& face) {
+        Surface surface = about_axis(Surface::Kind::torus, t.center, t.axis, t.major);
+        surface.slope = t.minor;
+        add_face(face, surface, 0);
+    }
+    void add_shape(const Quadric<R>& q, const Face& face) {
+        Surface surface;
+        surface.kind = Surface::Kind::quadric;
+        surface.u = q.squares;
+        surface.v = q.products;
+        surface.w = q.linear;
+        surface.radius = q.constant;
+        add_face(face, surface, 0);
     }
     void add_shape(const Implicit<R>& s, const Face& face) {
         add_group(face.sign > 0, [&] {

@@ -85,6 +85,18 @@ void randomize(Disc<R>& s, Random<R>& random, double distance) {
     s = {random.vector(distance), random.direction(), radius, radius * random.number(0, 0.7)};
 }
 template <class R>
+void randomize(Torus<R>& s, Random<R>& random, double distance) {
+    const R major = random.number(0.4, 1.5);
+    s = {random.vector(distance), random.direction(), major, major * random.number(0.05, 1)};
+}
+/// Of any kind, but not far from the origin.
+template <class R>
+void randomize(Quadric<R>& s, Random<R>& random, double) {
+    s = {random.vector(1.5), random.vector(1), random.vector(0.5), random.number(-1.5, 1)};
+    s.squares.x = random.number(0, 1) < 0.2 ? R(0) : s.squares.x;
+    s.products = random.number(0, 1) < 0.3 ? Vec3<R>{} : s.products;
+}
+template <class R>
 void randomize(Triangle<R>& s, Random<R>& random, double distance) {
     const Vec3<R> corner = random.vector(distance);
     do {
@@ -185,11 +197,14 @@ struct SingleShape {
         }
     }
 
-    /// In world space, of the shape or, for a plane, of a part of it.
+    /// In world space, of the shape or of a part of an unbounded one.
     Bounds<R> bounds() const {
         if constexpr (is_bounded<Shape>) {
             return placed ? bounds_of(scene, scene.primitives(Of<Placed<Shape, R>>{})[0])
                           : bounds_of(scene, scene.primitives(Of<Bare<Shape>>{})[0]);
+        } else if constexpr (requires { shape.squares; }) {
+            const Bounds<R> b{{-2, -2, -2}, {2, 2, 2}};
+            return placed ? transform_bounds(world_from_object, b) : b;
         } else {
             const Vec3<R> p = normalize(shape.normal) * shape.offset;
             const Bounds<R> b{p - Vec3<R>{1, 1, 1}, p + Vec3<R>{1, 1, 1}};

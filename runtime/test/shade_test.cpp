@@ -156,6 +156,62 @@ TEST(Shade, OnlyWhatIsBetweenPointAndLightCastsAShadow) {
     EXPECT_DOUBLE_EQ(with_disc_at(-1, sun), lit);
 }
 
+TEST(Shade, SpotLightsFadeFromTheInnerConeToTheOuter) {
+    Scene scene = floor_scene(diffuse(0, 1));
+    SpotLight<double> spot{lamp({0, 4, 0}, 3)};
+    spot.axis = normalize(V{1, -4, 0});
+    spot.cos_inner = std::cos(0.2);
+    spot.cos_outer = std::cos(0.3);
+    const auto at_angle = [&](double angle, double exponent) {
+        spot.exponent = exponent;
+        scene.spot_lights = {spot};
+        const V foot{4 * std::tan(std::atan2(1, 4) + angle), 0, 0};
+        const double cosine = 4 / std::hypot(foot.x, 4);
+        return seen(scene, foot + V{0, 1, 0}, down) / (3 * cosine);
+    };
+    EXPECT_NEAR(at_angle(0, 0), 1, 1e-14);
+    EXPECT_NEAR(at_angle(-0.19, 0), 1, 1e-14);
+    EXPECT_NEAR(at_angle(0.19, 5), std::pow(std::cos(0.19), 5), 1e-14);
+    const double q = (std::cos(0.26) - std::cos(0.3)) / (std::cos(0.2) - std::cos(0.3));
+    EXPECT_NEAR(at_angle(0.26, 0), q * q * (3 - 2 * q), 1e-13);
+    EXPECT_NEAR(at_angle(-0.26, 2), q * q * (3 - 2 * q) * std::cos(0.26) * std::cos(0.26), 1e-13);
+    EXPECT_EQ(at_angle(0.31, 0), 0);
+    spot.cos_inner = spot.cos_outer;
+    EXPECT_NEAR(at_angle(0.29, 0), 1, 1e-14) << "a hard edge";
+    EXPECT_EQ(at_angle(0.31, 0), 0);
+}
+
+TEST(Shade, RectangleLightsAreTheirGridOfPointLights) {
+    RectangleLight<double> rectangle{lamp({-1, 4, -1}, 6)};
+    rectangle.kl = 0.3;
+    rectangle.edge_u = {2, 0, 0};
+    rectangle.edge_v = {0, 0.5, 2};
+    rectangle.nu = 3;
+    rectangle.nv = 2;
+    const auto lit = [](auto lights) {
+        Scene scene = floor_scene(diffuse(0, 1));
+        scene.add(Bare<Disc<double>>{{{0, 2, 0}, {0, 1, 0}, 0.5, 0}, {1, {0, 0}}}); // hides five of them
+        scene.spot_lights.push_back({lamp({0, 1, 0}, 0)});
+        if constexpr (requires { lights.nu; }) {
+            scene.rectangle_lights.push_back(lights);
+        } else {
+            scene.point_lights = lights;
+        }
+        return seen(scene, {0.2, 1, 0.1}, down);
+    };
+    std::vector<PointLight<double>> points;
+    for (int j = 0; j < 2; ++j) {
+        for (int i = 0; i < 3; ++i) {
+            const double u = (i + 0.5) / 3, v = (j + 0.5) / 2;
+            points.push_back(lamp({-1 + 2 * u, 4 + 0.5 * v, -1 + 2 * v}, 1));
+            points.back().kl = 0.3;
+        }
+    }
+    EXPECT_NEAR(lit(rectangle), lit(points), 1e-14);
+    points.clear();
+    EXPECT_GT(lit(rectangle), lit(points));
+}
+
 TEST(Shade, ShadowsCanBeTurnedOff) {
     Scene scene = floor_scene(diffuse(0.4, 0.6));
     scene.point_lights.push_back(lamp({0, 4, 0}));

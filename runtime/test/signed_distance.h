@@ -57,6 +57,26 @@ long double signed_distance(const Disc<R>& s, const Wide& p, const Wide&) {
     return dot(normalize(lanes<long double>(s.normal)), p - lanes<long double>(s.center));
 }
 template <class R>
+long double signed_distance(const Torus<R>& s, const Wide& p, const Wide&) {
+    const Wide f = p - lanes<long double>(s.center), axis = normalize(lanes<long double>(s.axis));
+    const long double along = dot(f, axis);
+    return std::hypot(length(f - axis * along) - static_cast<long double>(s.major), along) -
+           static_cast<long double>(s.minor);
+}
+/// To first order.
+template <class R>
+long double signed_distance(const Quadric<R>& s, const Wide& p, const Wide&) {
+    const Wide a = lanes<long double>(s.squares), m = lanes<long double>(s.products),
+               l = lanes<long double>(s.linear);
+    const long double value = a.x * p.x * p.x + a.y * p.y * p.y + a.z * p.z * p.z + m.x * p.x * p.y +
+                              m.y * p.y * p.z + m.z * p.z * p.x + dot(l, p) +
+                              static_cast<long double>(s.constant);
+    const Wide gradient{2 * a.x * p.x + m.x * p.y + m.z * p.z + l.x,
+                        2 * a.y * p.y + m.x * p.x + m.y * p.z + l.y,
+                        2 * a.z * p.z + m.y * p.y + m.z * p.x + l.z};
+    return value / length(gradient);
+}
+template <class R>
 long double signed_distance(const Triangle<R>& s, const Wide& p, const Wide&) {
     const Wide a = lanes<long double>(s.points[0]);
     return dot(normalize(cross(lanes<long double>(s.points[1]) - a, lanes<long double>(s.points[2]) - a)),

@@ -44,6 +44,21 @@ bool contains(const Cone<R>& c, const Wide& p) {
     return is_in_cone(c.from, c.to, c.radius_from, c.radius_to, p);
 }
 
+template <class R>
+bool contains(const Torus<R>& s, const Wide& p) {
+    const Wide f = p - lanes<long double>(s.center), axis = lanes<long double>(s.axis);
+    const long double along = dot(f, axis);
+    return std::hypot(length(f - axis * along) - static_cast<long double>(s.major), along) <=
+           static_cast<long double>(s.minor);
+}
+template <class R>
+bool contains(const Quadric<R>& s, const Wide& p) {
+    const Wide a = lanes<long double>(s.squares), m = lanes<long double>(s.products);
+    return dot(a, Wide{p.x * p.x, p.y * p.y, p.z * p.z}) + dot(m, Wide{p.x * p.y, p.y * p.z, p.z * p.x}) +
+               dot(lanes<long double>(s.linear), p) + static_cast<long double>(s.constant) <=
+           0;
+}
+
 /// The one field of the scenes here: a ball with dents.
 template <class R>
 FunctionProgram<R> dented_ball() {
@@ -78,7 +93,8 @@ template <class R>
 struct Node {
     CsgOp op = CsgOp::member;
     std::vector<Node> operands{};
-    std::variant<Sphere<R>, Box<R>, Plane<R>, Cylinder<R>, Cone<R>, Implicit<R>> shape{};
+    std::variant<Sphere<R>, Box<R>, Plane<R>, Cylinder<R>, Cone<R>, Implicit<R>, Torus<R>, Quadric<R>>
+        shape{};
     std::optional<Affine<double>> place{};
     Affine<long double> object_from_world{}; ///< of the rounded place
 };
@@ -101,7 +117,7 @@ Node<R> random_node(Random<R>& random, int depth) {
         }
         node.shape = shape;
     };
-    switch (static_cast<int>(random.number(0, 5.999))) {
+    switch (static_cast<int>(random.number(0, 7.999))) {
     case 0:
         make(Sphere<R>{});
         break;
@@ -120,6 +136,12 @@ Node<R> random_node(Random<R>& random, int depth) {
         node.shape = Implicit<R>{0, Container<R>::of(container)};
         break;
     }
+    case 5:
+        make(Torus<R>{});
+        break;
+    case 6:
+        make(Quadric<R>{});
+        break;
     default:
         make(Cone<R>{});
         break;

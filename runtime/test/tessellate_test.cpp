@@ -16,7 +16,7 @@ namespace {
 template <class Shape>
 class TessellatedShape : public testing::Test {};
 using Formulas = testing::Types<Sphere<double>, Box<double>, Cylinder<double>, Cone<double>, Disc<double>,
-                                Triangle<double>, Sphere<float>, Cone<float>>;
+                                Triangle<double>, Torus<double>, Sphere<float>, Cone<float>>;
 TYPED_TEST_SUITE(TessellatedShape, Formulas);
 
 template <class Shape>
@@ -24,7 +24,7 @@ bool is_open(const Shape& shape) {
     if constexpr (requires { shape.caps; }) {
         return !shape.caps;
     } else {
-        return !is_convex<Shape>;
+        return !is_solid<Shape>;
     }
 }
 
@@ -53,7 +53,7 @@ TYPED_TEST(TessellatedShape, KeepsToToleranceWithoutCracks) {
             double farthest = 0, widest = 1, normals_off = 0;
             for_samples(mesh, [&](const Vec3<R>& p, const Triangle3& t) {
                 const Wide towards = lanes<long double>(flat_normal(mesh, t));
-                const Wide side = is_convex<Shape> ? lanes<long double>(mesh.normals[t.normals[0]]) : towards;
+                const Wide side = is_solid<Shape> ? lanes<long double>(mesh.normals[t.normals[0]]) : towards;
                 farthest = std::max(farthest, std::abs(static_cast<double>(
                                                   signed_distance(shape, lanes<long double>(p), side))));
             });

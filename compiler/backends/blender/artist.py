@@ -40,6 +40,13 @@ def artist_surface(g, sides, hit):
 
 #: light
 def artist_lamp(lamp, light):
+    #: spot
+    if "cone" in light:
+        lamp.type = "SPOT"
+        lamp = bpy.data.lights[lamp.name]  # of the new type's class
+        inner, outer, _ = light["cone"]
+        lamp.spot_size, lamp.spot_blend = 2 * math.acos(outer), (inner - outer) / (1 - outer)
+    #: end
     lamp.color, lamp.energy = light["diffuse"], math.pi
     #: directional
     if light["type"] == "SUN":

@@ -21,7 +21,11 @@ def fresh_scene():
     for old in [s for s in bpy.data.scenes if s.get(TAG) == NAME]:
         bpy.data.scenes.remove(old)
     for pool in (bpy.data.objects, bpy.data.meshes, bpy.data.lights, bpy.data.cameras, bpy.data.materials,
-                 bpy.data.node_groups, bpy.data.worlds, bpy.data.collections):
+                 bpy.data.node_groups, bpy.data.worlds, bpy.data.collections,
+                 #: image
+                 bpy.data.images,
+                 #: end
+                 ):
         for block in [b for b in pool if b.get(TAG) == NAME]:
             pool.remove(block)
     scene.name = short(NAME)
@@ -40,6 +44,23 @@ def new_object(collection, name, data):
     return ob
 
 
+#: image
+@functools.lru_cache(maxsize=None)
+def image_data(name):
+    """Floats of linear light, so that Cycles blends what we blend."""
+    entry = IMAGES[name]
+    width, height = entry["size"]
+    light = np.asarray(entry["light_of_code"])[entry["texels"]] if "light_of_code" in entry else entry["texels"]
+    pixels = np.ones((width * height, 4), np.float32)
+    pixels[:, :3] = np.reshape(light, (width * height, -1))
+    image = own(bpy.data.images.new(short(name), width, height, alpha=True, float_buffer=True))
+    image.colorspace_settings.name, image.alpha_mode = "Non-Color", "CHANNEL_PACKED"
+    image.pixels.foreach_set(pixels.ravel())
+    image.pack()
+    return image
+
+
+#: end
 #: function
 @functools.lru_cache(maxsize=None)
 def function_group(name):
@@ -72,7 +93,7 @@ def one_side(g, name, hit):
     #: function
     for key, value in fields.items():
         if isinstance(value, str):
-            outputs = dict(p="P", world="Position", n="Outward")
+            outputs = dict(p="P", world="Position", n="Outward", uv="UV")
             points = {read: hit[outputs[read]] for read in FUNCTIONS[value][1]}
             fields[key] = g.group(function_group(value), **points)["Result"]
     #: end
@@ -177,6 +198,9 @@ HITS = {
     #: cone
     "cone": cone_hit,
     #: end
+    #: torus
+    "torus": torus_hit,
+    #: end
     #: cap
     "cap": cap_hit,
     #: end
@@ -204,6 +228,9 @@ SHAPES = {
     #: cone
     "cone": Shape(cone_mesh, side_and_caps, lambda o: (o.get("caps", True), o["taper"], *cylinder_cells(o)),
                   cylinder_axes),
+    #: end
+    #: torus
+    "torus": Shape(torus_mesh, lambda o: ("torus",), lambda o: (o["tube"], *torus_cells(o)), torus_axes),
     #: end
     #: disc
     "disc": Shape(disc_mesh),
@@ -254,6 +281,10 @@ def add_objects(collection, materials):
             if "taper" in o:
                 ob["scc_taper"] = o["taper"]
             #: end
+            #: torus
+            if "tube" in o:
+                ob["scc_tube"] = o["tube"]
+            #: end
             #: curved_p
             for name, vector in zip(("scc_x", "scc_y", "scc_z", "scc_origin"), axes.T):
                 ob[name] = tuple(map(float, vector))
@@ -297,6 +328,10 @@ def add_lamps(scene, set_up):
         #: point
         if light["type"] == "POINT":
             ob.location = light["position"]
+        #: end
+        #: spot
+        if "axis" in light:
+            ob.rotation_euler = (-mathutils.Vector(light["axis"])).to_track_quat("Z", "Y").to_euler()
         #: end
         #: directional
         if light["type"] == "SUN":

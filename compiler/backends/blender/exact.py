@@ -43,6 +43,14 @@ def phong_group():
     #: end
     to_light = g.v("NORMALIZE", to_light)
     #: end
+    #: spot
+    off_axis = g.v("DOT_PRODUCT", to_light, g.layer("scc_axis"))  # 0 for other lights
+    outer, sharpness, exponent = g.split(g.layer("scc_cone"))
+    across = g.f("MULTIPLY", g.f("SUBTRACT", off_axis, outer), sharpness)
+    across = g.f("MINIMUM", g.f("MAXIMUM", across, 0.0), 1.0)
+    step = g.f("MULTIPLY", g.f("MULTIPLY", across, across), g.f("MULTIPLY_ADD", across, -2.0, 3.0))
+    gain = g.f("MULTIPLY", gain, g.f("MULTIPLY", step, g.f("POWER", g.f("MAXIMUM", off_axis, 1e-30), exponent)))
+    #: end
     cosine = g.v("DOT_PRODUCT", normal, to_light)
     light = g.v("SCALE", g.v("MULTIPLY", g.layer("scc_diffuse"), i["Diffuse"]), cosine)
     #: specular
@@ -134,6 +142,14 @@ def exact_world(world):
     g.put(world.node_tree.nodes["Background"].inputs["Strength"], g.f("MULTIPLY", now, g.layer("scc_glow", "Fac")))
 
 
+#: spot
+def cone_constants(light):
+    """Where the cone ends, how fast it fades there, and its exponent, in cosines; no cone includes all of them."""
+    inner, outer, exponent = light.get("cone", (-1.0, -2.0, 0.0))
+    return outer, min(1e30, 1.0 / (inner - outer)) if inner > outer else 1e30, exponent
+
+
+#: end
 def layer_properties(light):
     #: light
     if light:
@@ -143,6 +159,9 @@ def layer_properties(light):
                     #: attenuation
                     scc_attenuation=light.get("attenuation", (1.0, 0.0, 0.0)),
                     #: end
+                    #: end
+                    #: spot
+                    scc_axis=tuple(-x for x in light.get("axis", BLACK)), scc_cone=cone_constants(light),
                     #: end
                     #: specular
                     scc_specular=light.get("specular", light["diffuse"]),

@@ -46,6 +46,14 @@ def set_normals(mesh, normals):
 
 
 #: end
+#: uv
+def set_uvs(mesh, uvs):
+    """One pair per corner, interpolated by the material."""
+    attribute = mesh.attributes.new("scc_uv", "FLOAT_VECTOR", "CORNER")
+    attribute.data.foreach_set("vector", np.pad(np.asarray(uvs, np.float32), ((0, 0), (0, 1))).ravel())
+
+
+#: end
 #: curved disc
 def apparent_radius(o, center, radius):
     """In pixels; of the whole picture where the camera is inside."""
@@ -59,7 +67,7 @@ def apparent_radius(o, center, radius):
 
 
 #: end
-#: cylinder cone disc
+#: cylinder cone disc torus
 ASPECT = 8.0  # of a triangle; the sliver's length over its width multiplies Cycles' rounding error of a hit
 
 
@@ -179,6 +187,27 @@ def cylinder_axes(o):
 
 
 #: end
+#: torus
+def torus_cells(o):
+    """Segments along the circle and around the tube, of which the apparent radius is that part."""
+    n = min(segments(o, o["center"], o["major"] * (1 + o["tube"])), 512)
+    return n, max(min(2 ** math.ceil(math.log2(n * math.sqrt(o["tube"]))), 256), 32)
+
+
+def torus_mesh(o):
+    """About the z axis, its circle of radius 1; the tube is closed by a second ring of corners at its seam."""
+    n, rows = torus_cells(o)
+    along, around = circle(n), circle(rows)[np.arange(rows + 1) % rows] * o["tube"]
+    rings = [np.column_stack((along * (1 + x), np.full(n, z))) for x, z in around]
+    return new_mesh("torus", np.concatenate(rings), band(n, rows), smooth=True)
+
+
+def torus_axes(o):
+    axis = unit(o["axis"])
+    return (*(o["major"] * np.array((*frame(axis), axis))), o["center"])
+
+
+#: end
 #: box
 def box_mesh(o):
     (x0, y0, z0), (x1, y1, z1) = o["low"], o["high"]
@@ -222,6 +251,10 @@ def mesh_mesh(o):
     #: smooth
     if "normals" in m:
         set_normals(mesh, np.reshape(m["normals"], (-1, 3))[np.ravel(m["normal_indices"])])
+    #: end
+    #: uv
+    if "uvs" in m:
+        set_uvs(mesh, np.reshape(m["uvs"], (-1, 2))[np.ravel(m["uv_indices"])])
     #: end
     return mesh
 

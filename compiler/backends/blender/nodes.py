@@ -39,6 +39,13 @@ class Graph:
     def select(self, truth, if_so, if_not):
         return self.f("MULTIPLY_ADD", truth, if_so, self.f("MULTIPLY", self.f("SUBTRACT", 1.0, truth), if_not))
 
+    #: image
+    def image(self, name, u, v):
+        node = self.add("ShaderNodeTexImage", image=image_data(name), interpolation=IMAGES[name]["filter"],
+                        extension=IMAGES[name]["wrap"])
+        self.put(node.inputs[0], self.join(u, v, 0.0))
+        return self.split(node.outputs["Color"])
+
     #: end
     def v(self, operation, *operands):
         """A Vector Math node."""

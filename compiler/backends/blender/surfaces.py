@@ -2,7 +2,11 @@
 # One node group per kind of surface says where the ray really hit. Position: in the world. Normal: unit, in the
 # world, facing the viewer. Outward: the same, pointing to the front side. Back: 1 where the back side is seen.
 # P: in the coordinates that the shape was written in.
-HIT = dict(Position="Vector", Normal="Vector", Outward="Vector", Back="Float", P="Vector")
+HIT = dict(Position="Vector", Normal="Vector", Outward="Vector", Back="Float", P="Vector",
+           #: uv
+           UV="Vector",
+           #: end
+           )
 
 
 #: flat
@@ -14,6 +18,9 @@ def flat_hit(o=None):
     g.put(out["Outward"], g.v("SCALE", geometry["Normal"], front_sign(g, geometry)))
     g.put(out["Back"], geometry["Backfacing"])
     g.put(out["P"], g.add("ShaderNodeTexCoord").outputs["Object"])
+    #: uv
+    g.put(out["UV"], g.attribute("GEOMETRY", "scc_uv"))
+    #: end
     return g.tree
 
 
@@ -42,16 +49,20 @@ def nearest_root(g, a, b, c):
 
 #: end
 #: curved
-def quadric_hit(name, coefficients, gradient):
-    """Replaces the hit on the tessellated mesh by the root of a t^2 + 2 b t + c = 0 that is nearest to it.
+def curved_hit(name, coefficients, gradient, steps=1):
+    """Replaces the hit on the tessellated mesh by the root of a t^2 + 2 b t + c = 0 that is nearest to it: of a
+    quadric the equation itself, of others its expansion, which takes more steps.
 
     The mesh stands in unit coordinates; the ray's direction is not normalised there, so t is a world length."""
     g, _, out = new_group(name + " hit", {}, HIT)
     geometry = g.add("ShaderNodeNewGeometry").outputs
     viewer = geometry["Incoming"]
     start, direction = g.add("ShaderNodeTexCoord").outputs["Object"], g.to_object(g.v("SCALE", viewer, -1.0))
-    t = nearest_root(g, *coefficients(g, start, direction))
-    unit = g.v("ADD", start, g.v("SCALE", direction, t))
+    unit, t = start, None
+    for _ in range(steps):
+        step = nearest_root(g, *coefficients(g, unit, direction))
+        unit = g.v("ADD", unit, g.v("SCALE", direction, step))
+        t = g.f("ADD", t, step) if t else step
     outward = normal_to_world(g, gradient(g, unit))
     g.put(out["Position"], g.v("SUBTRACT", geometry["Position"], g.v("SCALE", viewer, t)))
     g.put(out["Normal"], g.v("SCALE", outward, g.f("SIGN", g.v("DOT_PRODUCT", outward, viewer))))
@@ -187,7 +198,7 @@ def sphere_hit(o=None):
         return (g.v("DOT_PRODUCT", d, d), g.v("DOT_PRODUCT", p, d),
                 g.f("SUBTRACT", g.v("DOT_PRODUCT", p, p), 1.0))
 
-    return quadric_hit("sphere", coefficients, lambda g, unit: unit)
+    return curved_hit("sphere", coefficients, lambda g, unit: unit)
 
 
 #: end
@@ -201,7 +212,7 @@ def cylinder_hit(o=None):
         return (g.v("DOT_PRODUCT", d, d), g.v("DOT_PRODUCT", p, d),
                 g.f("SUBTRACT", g.v("DOT_PRODUCT", p, p), 1.0))
 
-    return quadric_hit("cylinder", coefficients, across)
+    return curved_hit("cylinder", coefficients, across)
 
 
 #: end
@@ -227,7 +238,31 @@ def cone_hit(o=None):
         r, taper = radius(g, unit)
         return g.v("ADD", across(g, unit), g.join(0.0, 0.0, g.f("MULTIPLY", r, taper)))
 
-    return quadric_hit("cone", coefficients, gradient)
+    return curved_hit("cone", coefficients, gradient)
+
+
+#: end
+#: torus
+def torus_hit(o=None):
+    """About the z axis, its circle of radius 1: (r - 1)^2 + z^2 = tube^2 with r the distance from the axis."""
+    def across(g, vector):
+        return g.v("MULTIPLY", vector, (1.0, 1.0, 0.0))
+
+    def coefficients(g, p, d):
+        tube, z, climb = g.attribute("OBJECT", "scc_tube", "Fac"), g.split(p).z, g.split(d).z
+        p, d = across(g, p), across(g, d)
+        r = g.v("LENGTH", p)
+        off, slope = g.f("SUBTRACT", r, 1.0), g.f("DIVIDE", g.v("DOT_PRODUCT", p, d), r)
+        bend = g.f("DIVIDE", g.f("SUBTRACT", g.v("DOT_PRODUCT", d, d), g.f("MULTIPLY", slope, slope)), r)
+        a = g.f("MULTIPLY_ADD", off, bend, g.f("MULTIPLY_ADD", slope, slope, g.f("MULTIPLY", climb, climb)))
+        b = g.f("MULTIPLY_ADD", off, slope, g.f("MULTIPLY", z, climb))
+        return a, b, g.f("MULTIPLY_ADD", off, off, g.f("SUBTRACT", g.f("MULTIPLY", z, z), g.f("MULTIPLY", tube, tube)))
+
+    def gradient(g, unit):
+        inverse = g.f("DIVIDE", 1.0, g.v("LENGTH", across(g, unit)))
+        return g.v("SUBTRACT", unit, g.v("SCALE", across(g, unit), inverse))
+
+    return curved_hit("torus", coefficients, gradient, steps=3)
 
 
 #: end
@@ -257,6 +292,9 @@ def smooth_hit(o=None):
     g.put(out["Outward"], g.v("SCALE", geometry["Normal"], front_sign(g, geometry)))
     g.put(out["Back"], geometry["Backfacing"])
     g.put(out["P"], g.add("ShaderNodeTexCoord").outputs["Object"])
+    #: uv
+    g.put(out["UV"], g.attribute("GEOMETRY", "scc_uv"))
+    #: end
     return g.tree
 
 

@@ -1,4 +1,5 @@
 #include "compiler/cli/test/support.h"
+#include "runtime/host/png.h"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -614,6 +615,22 @@ TEST_F(CommandLine, CheckGivesASceneTheFramesThatItUses) {
           "sphere { radius = 2 + frame }\nperspective_camera { }\npoint_light { position = (3, 4, 5) }\n");
     EXPECT_EQ(scc({"check", "--fix", "b.scn"}).code, 0);
     EXPECT_NE(read("b.scn").find("\nrender { frames = 0..48 }\n"), std::string::npos) << read("b.scn");
+}
+
+TEST_F(CommandLine, ImagesOfAnExportLieBesideIt) {
+    write("q.png", host::encode_png(runtime::Image(2, 2)));
+    std::filesystem::create_directory(folder() / "out");
+    write("s.scn", std::string(small_scene) +
+                       "let q = image { file = \"q.png\" }\n"
+                       "plane { material = phong { diffuse = fn(s: surface) = q(s.uv) } }\n");
+    EXPECT_EQ(scc({"export", "pov", "s.scn", "-o", "out/a.b.pov"}).code, 0);
+    EXPECT_TRUE(exists("out/a.b_image_q.png"));
+    EXPECT_NE(read("out/a.b.pov").find("png \"a.b_image_q.png\""), std::string::npos);
+    const auto to_stdout = scc({"export", "pov", "s.scn", "-o", "-"});
+    EXPECT_EQ(to_stdout.code, 2);
+    EXPECT_EQ(to_stdout.out, "");
+    EXPECT_EQ(scc({"export", "blender", "s.scn", "-o", "-"}).code, 0);
+    EXPECT_EQ(files(), (std::vector<std::string>{"out", "q.png", "s.scn"}));
 }
 
 } // namespace scc::cli::test

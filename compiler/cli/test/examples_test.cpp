@@ -23,8 +23,11 @@ INSTANTIATE_TEST_SUITE_P(
     All, Examples,
     testing::Values(Example{"lecture", "pov,blender,native"}, Example{"mesh", "pov,blender,native"},
                     Example{"transforms", "pov,blender,native"}, Example{"lights", "pov,blender,native"},
-                    Example{"mirrors", "pov,blender,native"}, Example{"csg", "pov,blender,native"},
-                    Example{"implicit", "pov,blender,native"}, Example{"lattice", "pov,blender,native"}),
+                    Example{"mirrors", "pov,blender,native"}, Example{"stage", "pov,blender,native"},
+                    Example{"rings", "pov,native"}, Example{"quadrics", "pov,native"},
+                    Example{"landscape", "pov,blender,native"}, Example{"textures", "pov,blender,native"},
+                    Example{"csg", "pov,blender,native"}, Example{"implicit", "pov,blender,native"},
+                    Example{"lattice", "pov,blender,native"}),
     [](const auto& row) { return std::string(row.param.name); });
 
 TEST_P(Examples, CheckWithoutAWarning) {

@@ -1,5 +1,6 @@
 #include "compiler/cli/test/support.h"
 #include "lang/diagnostic.h"
+#include "runtime/host/exr.h"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -29,6 +30,7 @@ const std::map<Diag, Case>& cases() {
                               "perspective_camera { eye = (0, 0, 5e-8), near = 1e-9, far = 1e-6 }\n";
     static const std::map<Diag, Case> rows{
         {Diag::impossible_shape, {"cylinder { from = (0, 1, 0), to = (0, 1, 0) }\n"}},
+        {Diag::thin_line, {"polyline { points = [(0, 0, 0), (1, 1, 0)] }\n"}},
         {Diag::unusable_container,
          {"implicit { field = fn(p: vec3) = p.x, within = cylinder { caps = false } }\n"}},
         {Diag::unbounded_field,
@@ -52,6 +54,15 @@ const std::map<Diag, Case>& cases() {
         {Diag::missing_asset, {"mesh { file = \"none.obj\" }\n"}},
         {Diag::asset_outside, {"mesh { file = \"/etc/passwd\" }\n"}},
         {Diag::broken_mesh, {"mesh { file = \"broken.obj\" }\n"}},
+        {Diag::broken_image,
+         {"let q = image { file = \"broken.png\" }\n"
+          "plane { material = phong { diffuse = fn(s: surface) = q(s.uv) } }\n"}},
+        {Diag::linear_image,
+         {"let q = image { file = \"light.exr\", encoding = \"srgb\" }\n"
+          "plane { material = phong { diffuse = q((0, 0)) } }\n"}},
+        {Diag::mesh_without_uv,
+         {"fn f(s: surface) -> color = rgb(s.uv.x, s.uv.y, 0)\n"
+          "mesh { file = \"plain.obj\", material = phong { diffuse = f } }\n"}},
         {Diag::suspect_mesh, {"mesh { file = \"suspect.obj\" }\n"}},
         {Diag::bright_reflectance, {"sphere { material = phong { diffuse = rgb(1, 1.2, 0.5) } }\n"}},
         {Diag::depth_precision,
@@ -83,6 +94,9 @@ TEST(Messages, EveryDiagnosticOfTheWholeSceneHasACase) {
 TEST_F(CommandLine, EveryDiagnosticOfTheWholeSceneReadsAsItShould) {
     write("broken.obj", "v 0 0 0\nv 1 0 0\nf 1 2 7\n");
     write("suspect.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 1 2\n");
+    write("plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write("broken.png", "no picture");
+    write("light.exr", host::encode_exr(runtime::Image(1, 1), false));
     std::string text;
     for (const auto& [kind, scene] : cases()) {
         const std::string name(lang::row(kind).name);

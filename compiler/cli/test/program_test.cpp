@@ -1,5 +1,6 @@
 #include "compiler/cli/executable.h"
 #include "compiler/cli/test/support.h"
+#include "runtime/host/png.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -55,6 +56,8 @@ constexpr Feature features[] = {
     {"RaysInMesh", "mesh { file = \"m.obj\" }\n"},
     {"Scene::function_constants",
      "sphere { material = phong { diffuse = fn(s: surface) = rgb(sin(s.p.x), 0.5, 0.5) } }\n"},
+    {"Scene::images", "let q = image { file = \"i.png\" }\n"
+                      "sphere { material = phong { diffuse = fn(s: surface) = q(s.uv) } }\n"},
     {"Scene::directional_lights", "directional_light { direction = (0, -1, 0) }\n"},
     {"Scene::bare_sphere",
      "sphere { center = (0, 2, 0), material = phong { reflect = rgb(0.5, 0.5, 0.5) } }\n"},
@@ -99,6 +102,7 @@ TEST_F(BuiltProgram, IsInFloatForAnEightBitFileOfItsScene) {
 
 TEST_F(BuiltProgram, HoldsTheCodeForWhatItsSceneHas) {
     write("m.obj", mesh_text);
+    write("i.png", host::encode_png(runtime::Image(2, 2)));
     symbols(spheres_only, {"--precision", "float"});
     const std::uint64_t plain = inspect_executable(path("prog")).code_bytes;
     for (const Feature& feature : features) {
@@ -232,6 +236,22 @@ TEST_F(BuiltProgramWithParameters, KeepsWhatItsSceneImports) {
     fs::remove_all(folder() / "lights");
     EXPECT_TRUE(draw({"studio.power=0.7"}).ok());
     EXPECT_TRUE(read("prog").find(folder().string()) == std::string::npos);
+}
+
+TEST_F(BuiltProgramWithParameters, ReadsImagesAgain) {
+    runtime::Image image(2, 2);
+    image.pixels = {1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1};
+    write("i.png", host::encode_png(image));
+    write("s.scn", "param wear: number = 0.7 in 0..1\nlet q = image { file = \"i.png\" }\n"
+                   "sphere { material = phong { diffuse = fn(s: surface) = wear * q(s.uv * 3) } }\n"
+                   "perspective_camera { eye = (0, 1, 7) }\npoint_light { position = (5, 4, 5) }\n");
+    ASSERT_TRUE(scc({"build", "s.scn", "-o", "prog"}).ok());
+    expect_as_rendered({"wear=0.2"});
+    fs::remove(path("i.png"));
+    EXPECT_TRUE(draw({}).ok()) << "the program holds them";
+    const auto without = draw({"wear=0.3"});
+    EXPECT_EQ(without.code, 1);
+    EXPECT_TRUE(has(without.err, "missing-asset")) << without.err;
 }
 
 TEST_F(BuiltProgramWithParameters, SaysWhatIsWrongWithTheValues) {
