@@ -19,7 +19,6 @@ protected:
     std::string against() const { return GetParam().against; }
 };
 
-// Exports to Blender drop implicit surfaces and solids made of others.
 INSTANTIATE_TEST_SUITE_P(
     All, Examples,
     testing::Values(Example{"lecture", "pov,blender,native"}, Example{"mesh", "pov,blender,native"},
@@ -27,8 +26,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Example{"mirrors", "pov,blender,native"}, Example{"stage", "pov,blender,native"},
                     Example{"rings", "pov,native"}, Example{"quadrics", "pov,native"},
                     Example{"landscape", "pov,blender,native"}, Example{"textures", "pov,blender,native"},
-                    Example{"csg", "pov,native"},
-                    Example{"implicit", "pov,native"}, Example{"lattice", "pov,native"}),
+                    Example{"csg", "pov,blender,native"}, Example{"implicit", "pov,blender,native"},
+                    Example{"lattice", "pov,blender,native"}),
     [](const auto& row) { return std::string(row.param.name); });
 
 TEST_P(Examples, CheckWithoutAWarning) {
