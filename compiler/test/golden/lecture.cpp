@@ -38,9 +38,9 @@ struct Scene : SceneBase<double> {
     static constexpr std::array<DirectionalLight<R>, 1> directional_lights{{
         {{0.4082482904638631, 0.8164965809277261, 0.4082482904638631}, {0.3, 0.3, 0.35}, {0.3, 0.3, 0.35}},
     }};
-    static constexpr Camera<R> camera{Projection::perspective, {4.0, 3.0, 6.0}, {0.8320502943378436, 0.0, -0.554700196225229}, {-0.1816980905357149, 0.9448300707857176, -0.27254713580357237}, {0.5240974256643347, 0.3275608910402092, 0.7861461384965021}, 0.36397023426620234, 0.0, 0.0};
     static constexpr Rgb<R> ambient{0.2, 0.2, 0.2};
     static constexpr Rgb<R> background{0.014443843596092545, 0.021219010376003555, 0.0295568344378088};
+    static constexpr Camera<R> camera{Projection::perspective, {4.0, 3.0, 6.0}, {0.8320502943378436, 0.0, -0.554700196225229}, {-0.1816980905357149, 0.9448300707857176, -0.27254713580357237}, {0.5240974256643347, 0.3275608910402092, 0.7861461384965021}, 0.36397023426620234, 0.0, 0.0};
     template <class L>
     Rgb<L> color_function(std::int32_t index, const SurfacePoint<L>& s) const {
         switch (index) {

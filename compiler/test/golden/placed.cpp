@@ -33,9 +33,9 @@ struct Scene : SceneBase<double> {
     static constexpr std::array<PointLight<R>, 1> point_lights{{
         {{2.0, 5.0, 3.0}, {0.9, 0.9, 0.9}, {1.0, 0.5, 0.5}, 0.5, 0.1, 0.0},
     }};
-    static constexpr Camera<R> camera{Projection::orthographic, {3.0, 4.0, 5.0}, {0.8574929257125442, 0.0, -0.5144957554275266}, {-0.2910427500435996, 0.824621125123532, -0.48507125007266594}, {0.4242640687119285, 0.565685424949238, 0.7071067811865475}, 3.0, 0.1, -0.05};
     static constexpr Rgb<R> ambient{0.1, 0.1, 0.1};
     static constexpr Rgb<R> background{0.0, 0.0, 0.0};
+    static constexpr Camera<R> camera{Projection::orthographic, {3.0, 4.0, 5.0}, {0.8574929257125442, 0.0, -0.5144957554275266}, {-0.2910427500435996, 0.824621125123532, -0.48507125007266594}, {0.4242640687119285, 0.565685424949238, 0.7071067811865475}, 3.0, 0.1, -0.05};
     template <class L>
     Rgb<L> color_function(std::int32_t index, const SurfacePoint<L>& s) const {
         switch (index) {
