@@ -71,7 +71,7 @@ std::optional<Budget> budget_for(const std::string& renderer, int width, int hei
 }
 
 Budget with_refined_meshes(Budget budget, int width, int height, int samples_per_axis) {
-    // Of 640 x 480 pixels; measured are 84 to 250.
+    // Of 640 x 480 pixels; measured are 84 to 216.
     constexpr double more_above_1e3 = 400, more_outliers = 600;
     constexpr double error_elsewhere = 1e-4;
     const double share =
@@ -85,7 +85,7 @@ Budget with_refined_meshes(Budget budget, int width, int height, int samples_per
     budget.max_away_from_edges.reset(); // edges of shadows and of what mirrors show are found anywhere
     budget.reason +=
         "; implicit surfaces and solids are meshes a fraction of a pixel wide of the surface, so that "
-        "rays along their outlines and shadows fall on the other side (84 to 250 of 640 x 480), while "
+        "rays along their outlines and shadows fall on the other side (84 to 216 of 640 x 480), while "
         "what is hit is calculated as exactly as elsewhere";
     return budget;
 }
