@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 #include <vector>
 
 namespace scc::compiler {
@@ -54,6 +55,8 @@ private:
         case ir::Node::Kind::apply:
             derived = applied(node);
             break;
+        case ir::Node::Kind::image:
+            throw std::logic_error("the field of an implicit surface reads an image"); // refused when lowered
         }
         nodes_.push_back(derived);
     }
