@@ -156,7 +156,9 @@ picture over (0, 0) to (1, 1) is upright and not mirrored.
 | `plane` | lengths from the origin: (x, -z) where `normal` is the y axis |
 | `triangle` | `uvs` at its corners, else (0, 0), (1, 0), (0, 1); interpolated |
 | `mesh` | the file's texture coordinates, interpolated; (0, 0) where it has none, with a warning |
-| `implicit` | (x, y) of the point |
+| `torus` | u around the axis as on a cylinder; v around the tube, 1/2 farthest from the axis, more towards the axis's end |
+| `heightfield` | (0, 0) to (1, 1), as its field is called |
+| `implicit`, `quadric` | (x, y) of the point |
 
 The members of solids keep theirs. Upwards on a flat surface is the direction that comes nearest to y; where the normal is nearer to
 the y axis than to the others, to -z (z, where it points down). An axis other than y is turned likewise.

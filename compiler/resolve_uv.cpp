@@ -162,7 +162,18 @@ Terms uv_of(const runtime::Triangle<double>& t, const Point& p) {
     return {linear(t.uvs[0].x, t.uvs[1].x, t.uvs[2].x), linear(t.uvs[0].y, t.uvs[1].y, t.uvs[2].y)};
 }
 
+Terms uv_of(const runtime::Torus<double>& torus, const Point& p) {
+    const runtime::PlanarAxes<double> axes = runtime::planar_axes(torus.axis);
+    const Point d = p.relative_to(torus.center);
+    const Term x = d.along(axes.u), z = negative(d.along(axes.v));
+    return {around(x, z), around(d.along(torus.axis), root(x * x + z * z) - torus.major)};
+}
+
 Terms uv_of(const runtime::Implicit<double>&, const Point& p) {
+    return {p.x, p.y};
+}
+
+Terms uv_of(const runtime::Quadric<double>&, const Point& p) {
     return {p.x, p.y};
 }
 

@@ -47,13 +47,14 @@ struct SceneTraits {
     bool accelerator = false; ///< enough bounded shapes that a hierarchy over them pays
     bool perspective = false;
     bool orthographic = false;
+    bool spectra = false; ///< drawn three wavelengths at a time (bands.h), which the kernels do not notice
 
     friend constexpr bool operator==(const SceneTraits&, const SceneTraits&) = default;
 };
 
 inline constexpr SceneTraits everything{~0U,  ~0U,  ~0U,  ~0U,  true, true, true, true, true, true,
                                         true, true, true, true, true, true, true, true, true, true, true,
-                                        true, true};
+                                        true, true, true};
 
 /// What every shape in a scene carries.
 struct Tag {

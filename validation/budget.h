@@ -30,6 +30,9 @@ struct Budget {
 std::optional<Budget> budget_for(const std::string& renderer, int width, int height, int samples_per_axis = 1,
                                  double exposure = 1);
 
+/// The same for a picture with surfaces that the renderer got as meshes refined to a fraction of a pixel.
+Budget with_refined_meshes(Budget budget, int width, int height, int samples_per_axis = 1);
+
 nlohmann::ordered_json to_json(const Budget& budget);
 
 enum class Verdict { passed, failed, skipped };

@@ -176,7 +176,9 @@ void write_function(Writer& out, const ir::Function& function, const std::string
         parameters += fmt::format(", {}", point);
     }
     out.line("def {}({}) -> \"{}\":", identifier, parameters,
-             function.results.size() == 3 ? "Color" : "Float");
+             function.results.size() == 4   ? "Field"
+             : function.results.size() == 3 ? "Color"
+                                            : "Float");
     out.indent();
     FunctionWriter(out, function, std::move(image_keys)).write();
     out.dedent();

@@ -39,8 +39,6 @@ Account account(const Shape&, bool mirror, bool smooth, bool pattern) {
                 "pixels, for a "
                 "radius of up to 500",
                 0.004};
-    } else if constexpr (std::is_same_v<Shape, Implicit<double>>) {
-        return {Fidelity::dropped, "Blender has no implicit surfaces, and a mesh of it is not made yet"};
     } else if constexpr (std::is_same_v<Shape, Quadric<double>>) {
         return {Fidelity::dropped, "Blender has no quadrics, and a mesh of it is not made yet"};
     } else if constexpr (std::is_same_v<Shape, Disc<double>>) {
@@ -85,8 +83,12 @@ public:
 
 private:
     void add(Account account, std::string feature, const std::string& subject, lang::Span span) {
-        ledger_.push_back(
-            {account.fidelity, std::move(feature), subject, span, std::move(account.how), account.bound});
+        ledger_.push_back({.fidelity = account.fidelity,
+                           .feature = std::move(feature),
+                           .subject = subject,
+                           .span = span,
+                           .how = std::move(account.how),
+                           .bound = account.bound});
     }
 
     bool reflects(std::uint32_t material) const {
@@ -94,9 +96,9 @@ private:
     }
 
     void record(const ir::Object& object) {
-        if (const auto* solid = std::get_if<runtime::Csg<double>>(&object.shape)) {
-            add({Fidelity::dropped, "solids made of others are not written for Blender"},
-                std::string(ir::csg_word(scene_.csg_nodes[solid->root].op)), object.path, object.span);
+        const auto solid = needs_.solids.find(object.path);
+        if (solid != needs_.solids.end()) {
+            record(object, solid->second);
             return;
         }
         const bool mirror = reflects(object.sides.front) || reflects(object.sides.back);
@@ -109,13 +111,65 @@ private:
             },
             object.shape);
         if (!(object.world_from_object == runtime::Affine<double>{})) {
-            add({Fidelity::exact, "the object's matrix, shear and mirroring included"}, "transform",
-                object.path, object.span);
+            record_transform(object);
         }
         if (object.sides.front != object.sides.back) {
-            add({Fidelity::exact, "chosen in the material by the side that is seen"}, "two_sided",
+            record_sides(object);
+        }
+    }
+
+    void record(const ir::Object& object, const BlenderSolid& solid) {
+        const auto* csg = std::get_if<runtime::Csg<double>>(&object.shape);
+        const std::string word = csg != nullptr ? std::string(ir::csg_word(scene_.csg_nodes[csg->root].op))
+                                                : std::string(runtime::Implicit<double>::name);
+        std::string how =
+            fmt::format("a closed mesh of {} triangles with exact normals; {}bound: distance of "
+                        "the mesh from the surface",
+                        solid.slots.size(),
+                        has_formula(solid) ? "hits exact, computed in the "
+                                             "material; "
+                                           : "");
+        if (solid.uncertain > 0) {
+            how += fmt::format("; {} places too small to tell whether there is more", solid.uncertain);
+        }
+        const double rounding = 6e-8 * needs_.extent; // of positions
+        add({Fidelity::approximated, std::move(how), std::max(solid.deviation, rounding)}, word, object.path,
+            object.span);
+        ledger_.back().is_refined_mesh = true;
+        const bool is_placed = !(object.world_from_object == runtime::Affine<double>{});
+        if (is_placed) {
+            record_transform(object);
+        }
+        if (std::any_of(solid.faces.begin(), solid.faces.end(), [&](const BlenderFace& face) {
+                return reads_uv(face.sides.front) || reads_uv(face.sides.back);
+            })) {
+            add({Fidelity::dropped, "the mesh of a solid has no coordinates on its surface"}, "uv",
                 object.path, object.span);
         }
+        const auto is_two_sided = [](const BlenderFace& face) { return face.sides.front != face.sides.back; };
+        if (std::any_of(solid.faces.begin(), solid.faces.end(), is_two_sided)) {
+            record_sides(object);
+        }
+    }
+    bool reads_uv(std::uint32_t material) const {
+        const auto functions = ir::functions_of(scene_.materials[material].phong);
+        return std::any_of(functions.begin(), functions.end(), [&](std::int32_t index) {
+            return index != runtime::no_function &&
+                   scene_.functions[static_cast<std::size_t>(index)].reads(ir::Input::uv_x, ir::Input::uv_y);
+        });
+    }
+    static bool has_formula(const BlenderSolid& solid) {
+        return std::any_of(solid.faces.begin(), solid.faces.end(), [](const BlenderFace& face) {
+            return face.formula != BlenderFace::Formula::none;
+        });
+    }
+    void record_transform(const ir::Object& object) {
+        add({Fidelity::exact, "the object's matrix, shear and mirroring included"}, "transform", object.path,
+            object.span);
+    }
+    void record_sides(const ir::Object& object) {
+        add({Fidelity::exact, "chosen in the material by the side that is seen"}, "two_sided", object.path,
+            object.span);
     }
 
     void record(const ir::Material& material) {

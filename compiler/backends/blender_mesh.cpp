@@ -88,6 +88,22 @@ bool is_long(const ir::Mesh& mesh) {
            longest_list;
 }
 
+void write_entry(Writer& out, const ir::Mesh& mesh, bool with_uvs, std::span<const std::uint32_t> slots) {
+    out.line("{}: dict(", python(mesh.name));
+    out.indent();
+    write_array(out, "points", mesh.positions);
+    write_array(out, "indices", mesh.indices);
+    write_array(out, "normals", mesh.normals);
+    write_array(out, "normal_indices", mesh.normal_indices);
+    if (with_uvs) {
+        write_array(out, "uvs", mesh.uvs);
+        write_array(out, "uv_indices", mesh.uv_indices);
+    }
+    write_array(out, "slots", slots);
+    out.dedent();
+    out.line("),");
+}
+
 } // namespace
 
 std::string base64(std::string_view bytes) {
@@ -107,7 +123,8 @@ std::string base64(std::string_view bytes) {
 }
 
 bool needs_packing(const ir::Scene& scene, const BlenderNeeds& needs) {
-    if (!needs.images.empty()) {
+    const auto is_long_solid = [](const auto& entry) { return is_long(entry.second.mesh); };
+    if (!needs.images.empty() || std::any_of(needs.solids.begin(), needs.solids.end(), is_long_solid)) {
         return true;
     }
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
@@ -147,18 +164,11 @@ void write_image(Writer& out, const ir::Image& image, const std::string& key) {
 }
 
 void write_mesh(Writer& out, const ir::Mesh& mesh, bool with_uvs) {
-    out.line("{}: dict(", python(mesh.name));
-    out.indent();
-    write_array(out, "points", mesh.positions);
-    write_array(out, "indices", mesh.indices);
-    write_array(out, "normals", mesh.normals);
-    write_array(out, "normal_indices", mesh.normal_indices);
-    if (with_uvs) {
-        write_array(out, "uvs", mesh.uvs);
-        write_array(out, "uv_indices", mesh.uv_indices);
-    }
-    out.dedent();
-    out.line("),");
+    write_entry(out, mesh, with_uvs, {});
+}
+
+void write_solid(Writer& out, const BlenderSolid& solid) {
+    write_entry(out, solid.mesh, false, solid.slots);
 }
 
 } // namespace scc::compiler

@@ -21,6 +21,9 @@ void write_mesh(Writer& out, const ir::Mesh& mesh, bool with_uvs);
 /// An entry of the table of images, which hold linear light as floats, or codes with the light of each.
 void write_image(Writer& out, const ir::Image& image, const std::string& key);
 
+/// An entry of the table of solids.
+void write_solid(Writer& out, const BlenderSolid& solid);
+
 /// RFC 4648.
 std::string base64(std::string_view bytes);
 

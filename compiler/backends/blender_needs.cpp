@@ -86,7 +86,15 @@ MirrorView sees_itself(const Shape& shape, const Vec3<double>& eye) {
 class Mirrors {
 public:
     explicit Mirrors(const ir::Scene& scene) : scene_(scene) {
-        for_each_written(scene, [&](const ir::Object& object) { add(object); });
+        ir::for_each_object(scene, [&](const ir::Object& object) {
+            if (!std::holds_alternative<runtime::Csg<double>>(object.shape)) {
+                add(object);
+            }
+        });
+        for (const ir::Object& member : scene.members) {
+            add(member);
+            sees_itself_ |= reflects(member.sides.front) || reflects(member.sides.back); // or other members
+        }
     }
 
     int bounces() const {
@@ -142,11 +150,13 @@ public:
     explicit NeedsOf(const ir::Scene& scene) : scene_(scene) {
         needs_.materials.resize(scene.materials.size());
         needs_.functions.resize(scene.functions.size());
+        needs_.fields.resize(scene.functions.size());
         needs_.meshes.resize(scene.meshes.size());
     }
 
     BlenderNeeds find() {
-        for_each_written(scene_, [&](const ir::Object& object) { add(object); });
+        needs_.solids = blender_solids(scene_);
+        ir::for_each_object(scene_, [&](const ir::Object& object) { add(object); });
         for (const ir::Light& light : scene_.lights) {
             want("light");
             std::visit([&](const auto& l) { add(l); }, light.light);
@@ -170,11 +180,30 @@ private:
     void want(std::string_view feature) { needs_.features.emplace(feature); }
 
     void add(const ir::Object& object) {
-        needs_.materials[object.sides.front] = needs_.materials[object.sides.back] = true;
-        if (object.sides.front != object.sides.back) {
-            want("two_sided");
+        if (!std::holds_alternative<runtime::Csg<double>>(object.shape)) {
+            add(object.sides);
         }
         std::visit([&](const auto& shape) { add(object, shape); }, object.shape);
+    }
+    void want_formula(const BlenderFace& face) {
+        using Formula = BlenderFace::Formula;
+        switch (face.formula) {
+        case Formula::none:
+            return;
+        case Formula::ball:
+            want("ball");
+            want("quadric");
+            break;
+        case Formula::round:
+            want("round");
+            want("quadric");
+            break;
+        case Formula::field:
+            want("field");
+            needs_.fields[static_cast<std::size_t>(face.field)] = true;
+            break;
+        }
+        want("formula");
     }
     void add(const ir::Object&, const runtime::Box<double>&) {
         want("box");
@@ -217,17 +246,31 @@ private:
         want("plane");
         want(has_pattern(object, scene_) ? "horizon" : "flat");
     }
+    void add(const runtime::Sides& sides) {
+        needs_.materials[sides.front] = needs_.materials[sides.back] = true;
+        if (sides.front != sides.back) {
+            want("two_sided");
+        }
+    }
+    void add(const ir::Object& object, const runtime::Implicit<double>&) { add_solid(object); }
+    void add_solid(const ir::Object& object) {
+        want("solid");
+        want("flat");
+        for (const BlenderFace& face : needs_.solids.at(object.path).faces) {
+            add(face.sides);
+            want_formula(face);
+        }
+    }
     void add(const ir::Object& object, const runtime::Torus<double>&) {
         want("torus");
         add_curved(object);
     }
-    void add(const ir::Object&, const runtime::Implicit<double>&) {} // dropped
-    void add(const ir::Object&, const runtime::Quadric<double>&) {}  // dropped
+    void add(const ir::Object&, const runtime::Quadric<double>&) {} // dropped
     void add(const ir::Object& object, const runtime::Triangle<double>&) {
         want("triangle");
         want(is_smooth(object.shape, scene_) ? "smooth" : "flat");
     }
-    void add(const ir::Object&, const runtime::Csg<double>&) {} // not written
+    void add(const ir::Object& object, const runtime::Csg<double>&) { add_solid(object); }
     void add(const ir::Object& object, const runtime::Mesh<double>& mesh) {
         want("mesh");
         want(is_smooth(object.shape, scene_) ? "smooth" : "flat");

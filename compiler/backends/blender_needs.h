@@ -1,6 +1,7 @@
 #pragma once
 
 #include "compiler/backends/blender_library.h"
+#include "compiler/backends/blender_solid.h"
 #include "compiler/ir/objects.h"
 #include "compiler/ir/scene.h"
 
@@ -13,23 +14,15 @@ struct BlenderNeeds {
     BlenderFeatures features;
     std::vector<bool> materials; ///< of each of the scene's materials, whether an object uses it
     std::vector<bool> functions;
+    std::vector<bool> fields; ///< of the functions, those that are a solid's formula
     std::vector<bool> meshes;
+    BlenderSolids solids;
     std::vector<const ir::Image*> images; ///< of those functions, each once
     int bounces = 0;                      ///< mirror bounces that can be seen
     double cut_off = 0; ///< of the radiance that arrives at the last bounce, what share later ones could add
     runtime::Vec3<double> center; ///< of what is bounded, the lights and the camera
     double extent = 1;            ///< their distance from `center` at most
 };
-
-/// Calls `visit(object)` with every object that the script makes: solids made of others are left out.
-template <class Visit>
-void for_each_written(const ir::Scene& scene, Visit visit) {
-    ir::for_each_object(scene, [&](const ir::Object& object) {
-        if (!std::holds_alternative<runtime::Csg<double>>(object.shape)) {
-            visit(object);
-        }
-    });
-}
 
 BlenderNeeds blender_needs(const ir::Scene& scene);
 

@@ -14,6 +14,9 @@ namespace {
 using runtime::Rgb;
 using runtime::Varying;
 
+/// How far along a ray the true surface is looked for: seen at less than three degrees it may be farther.
+constexpr double steps_from_mesh = 20;
+
 class SceneWriter {
 public:
     SceneWriter(Writer& out, const ir::Scene& scene, const BlenderNeeds& needs)
@@ -25,8 +28,10 @@ public:
         write_lights();
         write_images();
         write_functions();
+        write_fields();
         write_materials();
         write_meshes();
+        write_solids();
         write_objects();
     }
 
@@ -154,6 +159,27 @@ private:
         out_.line("}}");
     }
 
+    void write_fields() {
+        if (!has("field")) {
+            return;
+        }
+        field_keys_.resize(scene_.functions.size());
+        Identifiers identifiers("field_");
+        std::string table;
+        for (std::size_t i = 0; i < scene_.functions.size(); ++i) {
+            if (needs_.fields[i]) {
+                const std::string& key = field_keys_[i] = identifiers.make(scene_.functions[i].name);
+                out_.blank();
+                out_.blank();
+                write_function(out_, *field_for_nodes(scene_.functions[i]), key, {});
+                table += fmt::format("{}\"{}\": {}", table.empty() ? "" : ", ", key, key);
+            }
+        }
+        out_.blank();
+        out_.blank();
+        out_.line("FIELDS = {{{}}}", table);
+    }
+
     void write_materials() {
         out_.line("MATERIALS = {{");
         out_.indent();
@@ -202,22 +228,38 @@ private:
         out_.line("}}");
     }
 
+    void write_solids() {
+        if (!has("solid")) {
+            return;
+        }
+        out_.line("SOLIDS = {{");
+        out_.indent();
+        for (const auto& [path, solid] : needs_.solids) {
+            write_solid(out_, solid);
+        }
+        out_.dedent();
+        out_.line("}}");
+    }
+
+    std::string materials(const runtime::Sides& sides) const {
+        const std::string front = python(scene_.materials[sides.front].name);
+        if (sides.front == sides.back) {
+            return "material=" + front;
+        }
+        return fmt::format("front={}, back={}", front, python(scene_.materials[sides.back].name));
+    }
+
     void write_objects() {
         out_.line("OBJECTS = [");
         out_.indent();
-        for_each_written(scene_, [&](const ir::Object& object) {
-            std::string text = std::visit([&](const auto& shape) { return described(shape); }, object.shape);
-            if (text.empty()) {
-                return;
-            }
+        ir::for_each_object(scene_, [&](const ir::Object& object) {
+            const auto solid = needs_.solids.find(object.path);
+            std::string text =
+                solid != needs_.solids.end()
+                    ? "type=\"solid\""
+                    : std::visit([&](const auto& shape) { return described(shape); }, object.shape);
             text += fmt::format(", name={}", python(object.path));
-            const std::string front = python(scene_.materials[object.sides.front].name);
-            if (object.sides.front == object.sides.back) {
-                text += ", material=" + front;
-            } else {
-                const std::string back = python(scene_.materials[object.sides.back].name);
-                text += fmt::format(", front={}, back={}", front, back);
-            }
+            text += ", " + (solid != needs_.solids.end() ? faces(solid->second) : materials(object.sides));
             if (!(object.world_from_object == runtime::Affine<double>{})) {
                 text += fmt::format(", world={}", python(object.world_from_object));
             }
@@ -260,14 +302,44 @@ private:
         const std::string normals = t.smooth ? ", normals=" + triple(t.normals) : "";
         return fmt::format("type=\"triangle\", points={}{}", triple(t.points), normals);
     }
+    static std::string described(const runtime::Csg<double>&) { return ""; }      // by its faces
+    static std::string described(const runtime::Implicit<double>&) { return ""; } // by its faces
+
+    std::string faces(const BlenderSolid& solid) const {
+        std::string list;
+        for (const BlenderFace& face : solid.faces) {
+            list += (list.empty() ? "" : ", ") + fmt::format("dict({})", described(face, solid.deviation));
+        }
+        return fmt::format("faces=[{}]", list);
+    }
+    std::string described(const BlenderFace& face, double deviation) const {
+        using Formula = BlenderFace::Formula;
+        std::string text = materials(face.sides);
+        if (!(face.member_from_world == runtime::Affine<double>{})) {
+            text += ", member=" + python(face.member_from_world);
+        }
+        if (face.formula == Formula::none) {
+            return "kind=\"face\", " + text;
+        }
+        text += ", frame=" + python(face.q_from_world);
+        if (face.inverted) {
+            text += ", inverted=True";
+        }
+        if (face.formula == Formula::field) {
+            return fmt::format("kind=\"field\", field=\"{}\", reach={}, {}",
+                               field_keys_[static_cast<std::size_t>(face.field)],
+                               python(steps_from_mesh * deviation), text);
+        }
+        return fmt::format("kind=\"{}\", radius=({}, {}), {}",
+                           face.formula == Formula::ball ? "ball" : "round", python(face.radius),
+                           python(face.slope), text);
+    }
     /// `tube`: its radius as a part of the circle's.
     static std::string described(const runtime::Torus<double>& t) {
         return fmt::format("type=\"torus\", center={}, axis={}, major={}, tube={}", python(t.center),
                            python(t.axis), python(t.major), python(t.minor / t.major));
     }
-    static std::string described(const runtime::Quadric<double>&) { return ""; }  // dropped
-    static std::string described(const runtime::Csg<double>&) { return ""; }      // not written
-    static std::string described(const runtime::Implicit<double>&) { return ""; } // dropped
+    static std::string described(const runtime::Quadric<double>&) { return ""; } // dropped
     std::string described(const runtime::Mesh<double>& m) const {
         return fmt::format("type=\"mesh\", mesh={}", python(scene_.meshes[m.mesh].name));
     }
@@ -276,7 +348,8 @@ private:
     const ir::Scene& scene_;
     const BlenderNeeds& needs_;
     std::map<const ir::Image*, std::string> image_keys_;
-    std::vector<std::string> keys_; ///< of each function: its name in Python
+    std::vector<std::string> keys_;       ///< of each function: its name in Python
+    std::vector<std::string> field_keys_; ///< of each field
 };
 
 } // namespace

@@ -17,6 +17,7 @@ struct LedgerEntry {
     lang::Span span;     ///< where it was written
     std::string how;     ///< by which means; for a dropped feature, why
     double bound = 0;    ///< of an approximation: largest error in the unit that `how` states
+    bool is_refined_mesh = false; ///< it went there as a mesh, refined to that bound
 };
 
 using Ledger = std::vector<LedgerEntry>;

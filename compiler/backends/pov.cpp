@@ -188,7 +188,7 @@ private:
             note(Fidelity::exact, std::string(ir::csg_word(scene_.csg_nodes[solid->root].op)), object.path,
                  object.span, pov_word(scene_.csg_nodes[solid->root].op));
         } else {
-            emit_shape(object, true);
+            emit_shape(object, true, false);
         }
     }
 
@@ -202,7 +202,7 @@ private:
     void emit_solid(std::size_t at, bool whole) {
         const ir::CsgNode& node = scene_.csg_nodes[at];
         if (node.op == runtime::CsgOp::member) {
-            emit_shape(scene_.members[node.member], whole);
+            emit_shape(scene_.members[node.member], whole, node.inverted);
             return;
         }
         const std::size_t end = at + node.size;
@@ -232,7 +232,8 @@ private:
         }
     }
 
-    void emit_shape(const ir::Object& object, bool whole) {
+    /// `inverted`: it is taken away from a solid.
+    void emit_shape(const ir::Object& object, bool whole, bool inverted) {
         const Placement placement = place(object, scene_, frame_);
         PovField field;
         const auto* implicit = std::get_if<runtime::Implicit<double>>(&object.shape);
@@ -243,6 +244,10 @@ private:
         if (implicit != nullptr) {
             shape.precision = field.precision;
             shape.bound = field.bound;
+        }
+        // Of what it takes away, POV-Ray turns the coefficients of quadrics over, and with them their sides.
+        if (inverted && std::holds_alternative<runtime::Quadric<double>>(object.shape)) {
+            shape.reversed = !shape.reversed;
         }
         declare_mesh_of(object);
         objects_.line("// {}", comment_text(object.path + line_of(object.span)));

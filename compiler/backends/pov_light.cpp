@@ -58,14 +58,24 @@ private:
         const auto degrees = [](double cosine) { return std::acos(cosine) * 180 / std::numbers::pi; };
         const DistanceRange range = surface_distances(scene_, spot.position);
         const FadeSum sum = fades(spot, range);
-        write(spot, sum,
+        // A shadowless spotlight would have no cone, so that its diffuse colour is that of highlights too.
+        runtime::PointLight<double> source = spot;
+        source.specular = spot.diffuse;
+        write(source, sum,
               fmt::format(" spotlight point_at {} radius {} falloff {} tightness {}",
                           pov_vector(frame_.point(spot.position) + spot.axis),
                           number(degrees(spot.cos_inner)), number(degrees(spot.cos_outer)),
                           number(spot.exponent)));
         note(light, "spot_light", {}, "spotlight");
         note_attenuation(light, "spot_light", spot, sum, range);
-        note_specular(light, spot.diffuse, spot.specular);
+        if (highlights_ && !(spot.diffuse == spot.specular)) {
+            const Rgb<double> off = spot.specular + spot.diffuse * -1.0;
+            note(light, "light specular", Fidelity::approximated,
+                 "highlights have the light's diffuse colour; bound in radiance",
+                 std::max({std::abs(off.r), std::abs(off.g), std::abs(off.b)}));
+        } else {
+            note_specular(light, spot.diffuse, spot.specular);
+        }
     }
 
     /// All points fade alike, as fitted for the distances from any point of the rectangle.
@@ -175,7 +185,8 @@ private:
 bool needs_object_union(const ir::Scene& scene) {
     return scene.settings.shadows && has_highlights(scene) && ir::object_count(scene) > 0 &&
            std::any_of(scene.lights.begin(), scene.lights.end(), [](const ir::Light& light) {
-               return std::visit([](const auto& l) { return !(l.diffuse == l.specular); }, light.light);
+               return !std::holds_alternative<runtime::SpotLight<double>>(light.light) &&
+                      std::visit([](const auto& l) { return !(l.diffuse == l.specular); }, light.light);
            });
 }
 

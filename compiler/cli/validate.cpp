@@ -77,9 +77,14 @@ void draw_reference(Subject& subject) {
 
 // ---- the other pictures --------------------------------------------------------------------------------
 
-void judge(RendererReport& result, const Subject& subject, double exposure) {
+void judge(RendererReport& result, const Subject& subject, double exposure,
+           const compiler::Ledger& ledger = {}) {
     const runtime::RenderSettings& s = subject.request.settings;
     result.budget = validation::budget_for(result.renderer, s.width, s.height, s.samples_per_axis, exposure);
+    if (std::any_of(ledger.begin(), ledger.end(), [](const auto& entry) { return entry.is_refined_mesh; })) {
+        result.budget =
+            validation::with_refined_meshes(*result.budget, s.width, s.height, s.samples_per_axis);
+    }
     validation::CompareOptions options;
     options.thresholds = validation::thresholds_for(*result.budget);
     result.metrics = validation::compare(subject.report.reference, result.image, options);
@@ -130,7 +135,9 @@ validation::RenderResult run_renderer(const compiler::Exporter& exporter, const 
                                       compiler::Ledger& ledger) {
     const std::filesystem::path file = subject.folder.path() / ("scene" + std::string(exporter.extension));
     compiler::ExportFiles beside{.stem = file.stem().string()};
-    host::replace_file(file.string(), exporter.emit(scene, ledger, beside));
+    ir::Scene sized = scene;
+    sized.settings = subject.request.settings; // meshes are refined for the picture's size
+    host::replace_file(file.string(), exporter.emit(sized, ledger, beside));
     write_beside(subject.folder.path(), beside);
     validation::RenderJob job;
     job.scene = file;
@@ -205,7 +212,7 @@ RendererReport run_exported(const Subject& subject, const std::string& name, dou
         return result;
     }
     result.image = std::move(run.image);
-    judge(result, subject, run.exposure);
+    judge(result, subject, run.exposure, ledger);
     return result;
 }
 

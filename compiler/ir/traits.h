@@ -37,6 +37,7 @@ inline constexpr auto trait_flags = std::to_array<TraitFlag>({
     {"accelerator", &runtime::SceneTraits::accelerator},
     {"perspective", &runtime::SceneTraits::perspective},
     {"orthographic", &runtime::SceneTraits::orthographic},
+    {"spectra", &runtime::SceneTraits::spectra},
 });
 
 /// What a scene needs, in words: "sphere", "box (transformed)", "point_lights".

@@ -135,6 +135,9 @@ std::vector<Need> needs_of(const ir::Scene& scene) {
             std::any_of(light.bands.begin(), light.bands.end(),
                         [](const ir::LightColors& c) { return !(c.diffuse == c.specular); });
     }
+    if (!scene.bands.empty()) {
+        needs.emplace_back(SceneTraits{}, lang::Span{}).traits.spectra = true;
+    }
     SceneTraits& camera = needs.emplace_back(SceneTraits{}, scene.camera_span).traits;
     camera.perspective = scene.camera.projection == runtime::Projection::perspective;
     camera.orthographic = scene.camera.projection == runtime::Projection::orthographic;

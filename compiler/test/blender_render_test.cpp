@@ -159,6 +159,32 @@ plane { normal = (0.1, 1, 0), offset = -0.1, material = phong { diffuse = rgb(0.
               3);
 }
 
+TEST_F(BlenderRender, DrawsSolidsAndImplicitSurfacesAsWeDo) {
+    EXPECT_LE(differing_pixels(scene_of(R"(
+perspective_camera { eye = (1, 3, 7), target = (0, 0.2, 0), fov_y = 40deg }
+directional_light { towards = (2, 4, 3), color = rgb(0.8, 0.8, 0.75) }
+point_light { position = (-4, 5, 6), color = rgb(0.4, 0.5, 0.6) }
+fn stripes(s: surface) -> color = rgb(0.5 + 0.4 * sin(5 * s.p.x), abs(s.n.y), 0.3)
+let striped = phong { diffuse = stripes, specular = rgb(0.4, 0.4, 0.4), shininess = 30 }
+let sides = two_sided { front = phong { diffuse = rgb(0.2, 0.7, 0.2) }, back = phong { diffuse = rgb(0.7, 0.1, 0.1) } }
+let shear = matrix([1, 0.6, 0, 0,  0, 1, 0, 0,  0, 0.1, 1, 0,  0, 0, 0, 1])
+difference {
+  transform = rotate_y(20deg) then translate(-1.4, 0, 0)
+  box { material = striped, transform = shear then scale(0.9) }
+  sphere { center = (0.5, 1, 0.7), radius = 0.8, material = striped, transform = scale(1, 0.9, 1.1) }
+  cone { from = (-0.6, -2, 0.8), to = (-0.4, 1.2, 0.8), radius_from = 0.1, radius_to = 0.5, material = sides, transform = shear }
+  cylinder { from = (-2, 0.3, 0), to = (2, 0.3, 0), radius = 0.25, material = sides }
+}
+implicit {
+  field = fn(p: vec3) = dot(p, p) - 0.8 + 0.2 * sin(p.x * 5) * sin(p.y * 4)
+  within = box { min = (-1, -0.7, -1), max = (1, 0.8, 1) }
+  material = striped
+  transform = scale(1, 1.2, 0.8) then rotate_z(30deg) then translate(1.5, 0.4, 0.3)
+}
+plane { normal = (0, 1, 0), offset = -1, material = phong { diffuse = rgb(0.5, 0.5, 0.5) } })")),
+              12); // the outlines of meshes
+}
+
 TEST_F(BlenderRender, ShinesFromConesAndRectanglesAsWeDo) {
     EXPECT_LE(differing_pixels(scene_of(R"(
 perspective_camera { eye = (3, 4, 7), target = (0, 0.5, 0) }

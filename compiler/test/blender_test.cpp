@@ -146,6 +146,50 @@ TEST(BlenderLedger, TellsHowEachFeatureGoesOver) {
     EXPECT_EQ(find(ledger, "sphere")->span, scene.objects[0].span);
 }
 
+constexpr std::string_view solids = R"(
+implicit { name = "egg", field = fn(p: vec3) = dot(p, p) - 0.5 + 0.1 * p.y, within = sphere { } }
+difference {
+  name = "cut"
+  material = phong { diffuse = rgb(1, 0, 0) }
+  box { }
+  sphere { center = (1, 1, 1), material = phong { diffuse = rgb(0, 1, 0) } }
+  cone { radius_from = 0.5, material = two_sided { front = phong { }, back = phong { diffuse = rgb(0, 0, 1) } } }
+}
+)";
+
+TEST(BlenderSolids, AreMeshesWithAFaceForEachFormulaAndMaterial) {
+    const ir::Scene scene = scene_of(std::string(lamp) + std::string(solids));
+    Ledger ledger;
+    const std::string script = emit_blender(scene, ledger);
+    for (const char* feature : {"implicit", "difference"}) {
+        ASSERT_NE(find(ledger, feature), nullptr);
+        EXPECT_EQ(find(ledger, feature)->fidelity, Fidelity::approximated);
+        EXPECT_TRUE(find(ledger, feature)->is_refined_mesh);
+        EXPECT_GT(find(ledger, feature)->bound, 0);
+        EXPECT_LT(find(ledger, feature)->bound, 0.01);
+    }
+    EXPECT_NE(find(ledger, "two_sided"), nullptr);
+    const BlenderSolids made = blender_solids(scene);
+    ASSERT_EQ(made.size(), 2U);
+    EXPECT_EQ(made.at("egg").faces.size(), 1U); // all inside the container
+    EXPECT_EQ(made.at("egg").faces[0].formula, BlenderFace::Formula::field);
+    EXPECT_EQ(made.at("cut").faces.size(), 4U); // the box's, the sphere's, the cone's and its base
+    EXPECT_EQ(std::count_if(made.at("cut").faces.begin(), made.at("cut").faces.end(),
+                            [](const BlenderFace& face) { return face.inverted; }),
+              2);
+    EXPECT_NE(script.find("def field_"), std::string::npos);
+    EXPECT_NE(script.find("kind=\"round\", radius=(0.5, -0.5)"), std::string::npos);
+    EXPECT_EQ(script.find("def sphere_hit"), std::string::npos) << "what is not needed is left out";
+}
+
+TEST(BlenderSolids, ComeAsTheMeshIsWhereNodesCannotCalculateTheField) {
+    const ir::Scene scene = scene_of(
+        "implicit { field = fn(p: vec3) = dot(p, p) - 0.5 + 0.2 * noise(p * 3), within = sphere { } }");
+    const BlenderSolids made = blender_solids(scene);
+    ASSERT_EQ(made.begin()->second.faces.size(), 1U);
+    EXPECT_EQ(made.begin()->second.faces[0].formula, BlenderFace::Formula::none);
+}
+
 ir::Function function_of(ir::Op op, int operands) {
     ir::Function f;
     f.name = "f";
@@ -255,8 +299,9 @@ TEST(BlenderScript, IsPythonWhateverTheNames) {
     const test::Folder folder;
     save(folder / "rich.py", script_of(rich_scene()));
     save(folder / "hostile.py", script_of(hostile_scene()));
+    save(folder / "solids.py", script_of(std::string(solids)));
     save(folder / "empty.py", script_of("render { size = (8, 8) }"));
-    for (const char* name : {"rich.py", "hostile.py", "empty.py"}) {
+    for (const char* name : {"rich.py", "hostile.py", "solids.py", "empty.py"}) {
         EXPECT_EQ(run("python3 -m py_compile " + (folder / name).string()), 0) << name;
     }
     // Reads the names back from the syntax tree: they are constants, and those of the scene.

@@ -1,4 +1,6 @@
+#include "compiler/backends/function_program.h"
 #include "compiler/backends/function_range.h"
+#include "compiler/derivative.h"
 #include "compiler/field_bounds.h"
 #include "compiler/function_builder.h"
 #include "compiler/test/support.h"
@@ -76,6 +78,38 @@ TEST(Field, GradientBoundIsCloseAboveTheSteepest) {
     EXPECT_GE(distance.bound, 1);
     EXPECT_TRUE(distance.elsewhere && !distance.at_zero);
     EXPECT_TRUE(bound("floor(p.x) + 0.5").at_zero);
+}
+
+/// Against the derivatives that the tracer has, which are made in another way.
+TEST(Field, GradientAsAFunctionIsThatOfDualNumbers) {
+    using D = runtime::Dual<double, 3>;
+    for (const char* field :
+         {"p.x * p.y / (p.z + 3) - p.x ^ 3", "(p.x + 2) ^ (p.y * 0.5)", "(p.x + 2) ^ 0.3 + sqrt(p.y + 2)",
+          "sin(p.x * 2) * cos(p.y) + tan(p.z * 0.3)", "asin(p.x * 0.5) / 1rad + acos(p.y * 0.5) / 1rad",
+          "atan2(p.y + 0.1, p.x + 2) / 1rad", "exp(p.x) + log(p.y + 2)",
+          "max(p.x, p.y * 2) + min(p.z, 0.2) + abs(p.x)", "if (p.x > 0.1) p.y * p.y else -p.z",
+          "(p.x + 5) % 1.5 + floor(p.y * 2) + p.z", "7"}) {
+        const test::Compiled c = surface(field);
+        ASSERT_TRUE(c.fine) << field << c.messages;
+        const auto derived = with_gradient(c.scene.functions.at(0));
+        ASSERT_TRUE(derived) << field;
+        ASSERT_EQ(derived->results.size(), 4U);
+        const auto program = program_of<double>(c.scene.functions[0]);
+        const auto all = program_of<double>(*derived);
+        for (int i = 0; i < 20; ++i) {
+            const double x = std::sin(7.0 * i), y = std::sin(11.0 * i + 1), z = std::sin(13.0 * i + 2);
+            const D expected = run(
+                program, runtime::SurfacePoint<D>{{D::variable(x, 0), D::variable(y, 1), D::variable(z, 2)},
+                                                  {},
+                                                  {}})[program.results[0]];
+            const double* found = run(all, runtime::SurfacePoint<double>{{x, y, z}, {}, {}});
+            EXPECT_NEAR(found[all.results[0]], expected.v, 1e-12) << field;
+            for (std::size_t k = 0; k < 3; ++k) {
+                EXPECT_NEAR(found[all.results[k + 1]], expected.d[k], 1e-9) << field << " by " << k;
+            }
+        }
+    }
+    EXPECT_FALSE(with_gradient(surface("noise(p) - 0.5").scene.functions.at(0)));
 }
 
 TEST(FunctionBuilder, MakesPowersOfProducts) {

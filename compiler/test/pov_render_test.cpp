@@ -247,7 +247,7 @@ TEST_F(PovRender, FadesLights) {
 TEST_F(PovRender, ShinesFromConesAndRectangles) {
     expect_same_picture(room + camera + R"(
 sphere { center = (0, 1, 0), material = phong { specular = rgb(0.3, 0.2, 0.1) } }
-spot_light { position = (2, 4, 3), target = (0, 0.5, 0), color = rgb(0.8, 0.4, 0.3), specular = rgb(0.2, 0.6, 0.3) }
+spot_light { position = (2, 4, 3), target = (0, 0.5, 0), color = rgb(0.8, 0.4, 0.3) }
 spot_light { position = (-3, 4, 3), target = (-1, 0, 1), inner = 12deg, outer = 12deg, color = rgb(0.3, 0.6, 0.3), attenuation = (0.5, 0.1, 0) }
 spot_light { position = (-3, 3, -1), target = (0, 0, 1), inner = 5deg, outer = 50deg, exponent = 7, color = rgb(0.2, 0.3, 0.7), attenuation = (1, 0.3, 0.08) }
 rectangle_light { corner = (2, 3, -2), edge_u = (1, 0, 0), edge_v = (0, 0.5, 1), samples = (3, 2), color = rgb(0.4, 0.4, 0.4) }

@@ -86,6 +86,12 @@ struct Quadric {
                 normal, normal};
     }
 
+    /// As of other surfaces without coordinates of their own.
+    template <class L>
+    constexpr Vec2<L> uv(const Ray<L>&, const ShapeHit<L>&, const Vec3<L>& point) const {
+        return {point.x, point.y};
+    }
+
 private:
     Bounds<R> ellipsoid_bounds() const {
         const Vec3<R> all{infinity<R>(), infinity<R>(), infinity<R>()};

@@ -97,6 +97,15 @@ struct Torus {
                 normal};
     }
 
+    /// Around the axis as on a cylinder's side, and around the tube: 1/2 farthest from the axis.
+    template <class L>
+    Vec2<L> uv(const Ray<L>&, const ShapeHit<L>&, const Vec3<L>& point) const {
+        const PlanarAxes<R> axes = planar_axes(axis);
+        const Vec3<L> d = point - lanes<L>(center);
+        const L x = dot(d, lanes<L>(axes.u)), z = -dot(d, lanes<L>(axes.v));
+        return {around(x, z), around(dot(d, lanes<L>(axis)), square_root(x * x + z * z) - L(major))};
+    }
+
 private:
     /// A ray's line with the circle's radius as the unit, by the distance s from its point nearest to the
     /// centre.

@@ -146,10 +146,9 @@ template <class R>
 void fill(DynamicScene<R>& scene, Random<R>& random, int count) {
     const auto put = [&](auto shape, std::uint32_t id) {
         if constexpr (!is_mesh<decltype(shape)>) {
-            if constexpr (is_bounded<decltype(shape)>) {
-                randomize(shape, random, id % 2 == 0 ? 10 : 1);
-                add_field(shape, scene);
-            } else {
+            randomize(shape, random, id % 2 == 0 ? 10 : 1);
+            add_field(shape, scene);
+            if constexpr (requires { shape.offset; }) {
                 shape.offset = -15;
             }
         }
@@ -169,12 +168,13 @@ void fill(DynamicScene<R>& scene, Random<R>& random, int count) {
         put(Box<R>{}, id++);
         put(Cylinder<R>{}, id++);
         put(Cone<R>{}, id++);
-        put(Sphere<R>{}, id++);
+        put(Torus<R>{}, id++);
         put(Mesh<R>{}, id++);
         put(Box<R>{}, id++);
         put(Triangle<R>{}, id++);
     }
     put(Plane<R>{}, id++);
+    put(Quadric<R>{}, id++);
 }
 
 template <class R>

@@ -43,8 +43,9 @@ protected:
         return b.center() + random_.direction() * distance;
     }
 };
-using BoundedShapes = testing::Types<Sphere<float>, Sphere<double>, Box<float>, Cylinder<double>,
-                                     Cone<double>, Disc<double>, Triangle<double>, Mesh<float>, Mesh<double>>;
+using BoundedShapes =
+    testing::Types<Torus<double>, Sphere<float>, Sphere<double>, Box<float>, Cylinder<double>, Cone<double>,
+                   Disc<double>, Triangle<double>, Mesh<float>, Mesh<double>>;
 TYPED_TEST_SUITE(Candidate, BoundedShapes);
 
 TYPED_TEST(Candidate, PartsOfThePictureLeaveOutWhatNoRayMeets) {

@@ -29,7 +29,7 @@ bool is_varied(const Image& image) {
     return *low >= 0 && *high > *low + 0.3F;
 }
 
-/// Every kind of shape, bare and placed, with meshes, functions and both kinds of lights.
+/// Every kind of shape, bare and placed, with meshes, functions and every kind of light.
 template <class R>
 struct Crowd {
     MeshStorage mesh = ball_mesh(2, 1, {0, 0, 0});
@@ -65,6 +65,16 @@ struct Crowd {
             {{5, 9, 7}, {1, R(0.9), R(0.8)}, {R(0.5), R(0.5), 1}, 1, R(0.02), R(0.01)});
         scene.directional_lights.push_back(
             {normalize(Vec3<R>{-1, 2, 1}), {R(0.4), R(0.4), R(0.4)}, {R(0.4), R(0.4), R(0.4)}});
+        SpotLight<R> spot{{{-6, 5, 8}, {R(0.5), R(0.5), R(0.4)}, {R(0.5), R(0.5), R(0.4)}}};
+        spot.axis = normalize(Vec3<R>{6, -5, -8});
+        spot.cos_inner = R(0.97);
+        spot.cos_outer = R(0.9);
+        spot.exponent = 3;
+        scene.spot_lights.push_back(spot);
+        RectangleLight<R> window{{{3, 6, 4}, {R(0.4), R(0.4), R(0.4)}, {R(0.2), R(0.3), R(0.4)}}};
+        window.nu = 2;
+        window.nv = 2;
+        scene.rectangle_lights.push_back(window);
         scene.camera.eye = {0, 1, 14};
         scene.camera.half_height = R(0.5);
         scene.ambient = {R(0.3), R(0.3), R(0.3)};

@@ -220,6 +220,18 @@ TEST(Uv, CylindersAndConesGoAroundTheirAxis) {
     expect_uv(cone, {0.5, 0, 0}, {0, -1, 0}, 0.625, 0.5);
 }
 
+TEST(Uv, ATorusGoesAroundItsAxisAndItsTube) {
+    Torus<double> torus;
+    torus.center = {1, 2, 3};
+    torus.major = 2;
+    torus.minor = 0.5;
+    expect_uv(torus, {3.5, 2, 3}, {1, 0, 0}, 0.75, 0.5);
+    expect_uv(torus, {1, 2.5, 5}, {0, 1, 0}, 0.5, 0.75);
+    expect_uv(torus, {1, 1.5, 5}, {0, -1, 0}, 0.5, 0.25);
+    const double s = std::sqrt(0.125);
+    expect_uv(torus, {1, 2 + s, 5 + s}, {0, 1, 1}, 0.5, 0.625);
+}
+
 TEST(Uv, TrianglesAndMeshesInterpolate) {
     Triangle<double> triangle;
     triangle.points = {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};

@@ -39,6 +39,18 @@ TEST(Budget, FollowsTheExposureOfAnIntegerFileOnly) {
     EXPECT_EQ(budget_for("native", 640, 480, 1, 0.25)->max_error, 0);
 }
 
+TEST(Budget, AllowsForTheOutlinesOfRefinedMeshes) {
+    const Budget whole = with_refined_meshes(*budget_for("blender", 640, 480), 640, 480);
+    EXPECT_EQ(whole.above_1e3, 420U);
+    EXPECT_EQ(whole.outliers, 620U);
+    EXPECT_EQ(whole.max_error, 1e-4);
+    EXPECT_FALSE(whole.max_away_from_edges);
+    EXPECT_NE(whole.reason.find("outlines"), std::string::npos);
+    // In a small picture they are fewer.
+    EXPECT_EQ(with_refined_meshes(*budget_for("blender", 160, 120), 160, 120).above_1e3, 45U);
+    EXPECT_EQ(with_refined_meshes(*budget_for("blender", 160, 120, 2), 160, 120, 2).above_1e3, 120U);
+}
+
 TEST(Budget, UnknownRendererHasNone) {
     EXPECT_FALSE(budget_for("povray", 640, 480));
 }

@@ -109,7 +109,7 @@ class Materials:
     def get(self, kind, o):
         front = o.get("material") or o["front"]
         back = o.get("back", front)
-        single = o["name"] if kind == "plane" else ""
+        single = o["name"] if kind in SINGLE else ""
         key = kind, single, front, back
         if key not in self.made:
             self.made[key] = self.make(kind, single, front, back, o)
@@ -135,6 +135,14 @@ class Shape:
 
     def __init__(self, mesh, kinds=lambda o: ("flat",), shared=lambda o: o["name"], axes=None):
         self.mesh, self.kinds, self.shared, self.axes = mesh, kinds, shared, axes
+
+    def surfaces(self, o):
+        """The kinds with what has their material."""
+        #: solid
+        if "faces" in o:
+            return [(f["kind"], dict(f, name=f"{o['name']} {k}")) for k, f in enumerate(o["faces"])]
+        #: end
+        return [(kind, o) for kind in self.kinds(o)]
 
 
 #: smooth
@@ -164,7 +172,20 @@ def plane_kinds(o):
 
 
 #: end
+SINGLE = ("plane", "face", "ball", "round", "field")  # kinds with numbers of one object in their nodes
 HITS = {
+    #: solid
+    "face": face_hit,
+    #: end
+    #: ball
+    "ball": ball_hit,
+    #: end
+    #: round
+    "round": round_hit,
+    #: end
+    #: field
+    "field": field_hit,
+    #: end
     #: flat
     "flat": flat_hit,
     #: end
@@ -221,6 +242,9 @@ SHAPES = {
                       #: end
                       ),
     #: end
+    #: solid
+    "solid": Shape(solid_mesh),
+    #: end
     #: mesh
     "mesh": Shape(mesh_mesh,
                   #: smooth
@@ -241,7 +265,7 @@ def add_objects(collection, materials):
 
     for o in OBJECTS:
         shape = SHAPES[o["type"]]
-        slots = tuple(materials.get(kind, o) for kind in shape.kinds(o))
+        slots = tuple(materials.get(kind, surface) for kind, surface in shape.surfaces(o))
         key = (o["type"], shape.shared(o), *slots)
         if key not in meshes:
             meshes[key] = shape.mesh(o)

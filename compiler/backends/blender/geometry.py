@@ -260,6 +260,16 @@ def mesh_mesh(o):
 
 
 #: end
+#: solid
+def solid_mesh(o):
+    m = SOLIDS[o["name"]]
+    mesh = new_mesh(o["name"], np.reshape(m["points"], (-1, 3)), np.reshape(m["indices"], (-1, 3)), True, m["slots"])
+    mesh.use_auto_smooth, mesh.auto_smooth_angle = True, math.pi
+    mesh.normals_split_custom_set(np.reshape(m["normals"], (-1, 3))[np.ravel(m["normal_indices"])].tolist())
+    return mesh
+
+
+#: end
 #: plane
 PLANE_SEGMENTS, PLANE_RINGS = 12, 20  # the last ring is a million times as large as the first
 

@@ -35,10 +35,11 @@ class Graph:
             self.put(socket, value)
         return node.outputs[0]
 
-    #: function
+    #: function field
     def select(self, truth, if_so, if_not):
         return self.f("MULTIPLY_ADD", truth, if_so, self.f("MULTIPLY", self.f("SUBTRACT", 1.0, truth), if_not))
 
+    #: end
     #: image
     def image(self, name, u, v):
         node = self.add("ShaderNodeTexImage", image=image_data(name), interpolation=IMAGES[name]["filter"],

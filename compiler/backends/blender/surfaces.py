@@ -39,6 +39,15 @@ def normal_to_world(g, normal):
 
 
 #: end
+#: quadric curved
+def nearest_root(g, a, b, c):
+    """Of a t^2 + 2 b t + c = 0, the one nearest to 0."""
+    root = g.f("SQRT", g.f("MAXIMUM", g.f("SUBTRACT", g.f("MULTIPLY", b, b), g.f("MULTIPLY", a, c)), 0.0))
+    sign = g.f("MULTIPLY_ADD", g.f("GREATER_THAN", b, 0.0), 2.0, -1.0)
+    return g.f("MULTIPLY", g.f("DIVIDE", c, g.f("MULTIPLY_ADD", sign, root, b)), -1.0)
+
+
+#: end
 #: curved
 def curved_hit(name, coefficients, gradient, steps=1):
     """Replaces the hit on the tessellated mesh by the root of a t^2 + 2 b t + c = 0 that is nearest to it: of a
@@ -51,10 +60,7 @@ def curved_hit(name, coefficients, gradient, steps=1):
     start, direction = g.add("ShaderNodeTexCoord").outputs["Object"], g.to_object(g.v("SCALE", viewer, -1.0))
     unit, t = start, None
     for _ in range(steps):
-        a, b, c = coefficients(g, unit, direction)
-        root = g.f("SQRT", g.f("MAXIMUM", g.f("SUBTRACT", g.f("MULTIPLY", b, b), g.f("MULTIPLY", a, c)), 0.0))
-        sign = g.f("MULTIPLY_ADD", g.f("GREATER_THAN", b, 0.0), 2.0, -1.0)
-        step = g.f("MULTIPLY", g.f("DIVIDE", c, g.f("MULTIPLY_ADD", sign, root, b)), -1.0)
+        step = nearest_root(g, *coefficients(g, unit, direction))
         unit = g.v("ADD", unit, g.v("SCALE", direction, step))
         t = g.f("ADD", t, step) if t else step
     outward = normal_to_world(g, gradient(g, unit))
@@ -76,6 +82,113 @@ def written_point(g, unit):
     for axis, scale in zip(("scc_x", "scc_y", "scc_z"), g.split(unit)):
         point = g.v("ADD", point, g.v("SCALE", g.attribute("OBJECT", axis), scale))
     return point
+
+
+#: end
+#: solid horizon
+def by_rows(g, rows, point):
+    """An affine map of a point."""
+    return g.join(*(g.f("ADD", g.v("DOT_PRODUCT", point, tuple(row[:3])), row[3]) for row in rows))
+
+
+#: end
+#: solid
+def face_hit(f):
+    """A face of a solid, where the mesh is hit."""
+    tree = flat_hit()
+    tree.name = "scc hit on " + short(f["name"])
+    if "member" in f:
+        g = Graph(tree)
+        outputs = next(n for n in tree.nodes if n.type == "GROUP_OUTPUT").inputs
+        g.put(outputs["P"], by_rows(g, f["member"], outputs["Position"].links[0].from_socket))
+    return tree
+
+
+#: end
+#: formula
+def formula_hit(f, along, gradient):
+    """Replaces the hit on a solid's mesh by one on its formula: `along(g, start, way)` gives the place on the ray, a
+    length in the world. The formula has coordinates of its own, `frame` of the world."""
+    g, _, out = new_group("hit on " + f["name"], {}, HIT)
+    geometry = g.add("ShaderNodeNewGeometry").outputs
+    viewer, seen, rows = geometry["Incoming"], geometry["Position"], f["frame"]
+    way = g.join(*(g.v("DOT_PRODUCT", viewer, tuple(-x for x in row[:3])) for row in rows))
+    start = by_rows(g, rows, seen)
+    t = along(g, start, way)
+    normal = gradient(g, g.v("ADD", start, g.v("SCALE", way, t)))
+    if f.get("inverted"):
+        normal = g.v("SCALE", normal, -1.0)
+    columns = [tuple(row[k] for row in rows) for k in range(3)]
+    outward = g.v("NORMALIZE", g.join(*(g.v("DOT_PRODUCT", normal, column) for column in columns)))
+    position = g.v("SUBTRACT", seen, g.v("SCALE", viewer, t))
+    g.put(out["Position"], position)
+    g.put(out["Normal"], g.v("SCALE", outward, g.f("SIGN", g.v("DOT_PRODUCT", outward, viewer))))
+    g.put(out["Outward"], outward)
+    g.put(out["Back"], geometry["Backfacing"])
+    g.put(out["P"], by_rows(g, f["member"], position) if "member" in f else position)
+    return g.tree
+
+
+#: end
+#: field
+@functools.lru_cache(maxsize=None)
+def field_group(name):
+    g, i, out = new_group(name, dict(p="Vector"), dict(Value="Float", Gradient="Vector"))
+    value, *slopes = FIELDS[name](g, g.split(i["p"]))
+    g.put(out["Value"], g.f("ADD", value, 0.0))
+    g.put(out["Gradient"], g.join(*slopes))
+    return g.tree
+
+
+def field_hit(f):
+    """By Newton's steps from the mesh, no farther than `reach`."""
+    def along(g, start, way):
+        t, p = 0.0, start
+        for _ in range(3):
+            field = g.group(field_group(f["field"]), p=p)
+            step = g.f("DIVIDE", field["Value"], g.v("DOT_PRODUCT", field["Gradient"], way))
+            t = g.f("MAXIMUM", g.f("MINIMUM", g.f("SUBTRACT", t, step), f["reach"]), -f["reach"])
+            p = g.v("ADD", start, g.v("SCALE", way, t))
+        return t
+
+    return formula_hit(f, along, lambda g, p: g.group(field_group(f["field"]), p=p)["Gradient"])
+
+
+#: end
+#: ball
+def ball_hit(f):
+    radius = f["radius"][0]
+
+    def coefficients(g, p, d):
+        return (g.v("DOT_PRODUCT", d, d), g.v("DOT_PRODUCT", p, d),
+                g.f("SUBTRACT", g.v("DOT_PRODUCT", p, p), radius * radius))
+
+    return formula_hit(f, lambda g, p, d: nearest_root(g, *coefficients(g, p, d)), lambda g, p: p)
+
+
+#: end
+#: round
+def round_hit(f):
+    """About the z axis."""
+    at_origin, slope = f["radius"]
+
+    def across(g, vector):
+        return g.v("MULTIPLY", vector, (1.0, 1.0, 0.0))
+
+    def radius(g, p):
+        return g.f("MULTIPLY_ADD", g.split(p).z, slope, at_origin)
+
+    def coefficients(g, p, d):
+        r, growth = radius(g, p), g.f("MULTIPLY", g.split(d).z, slope)
+        p, d = across(g, p), across(g, d)
+        return (g.f("SUBTRACT", g.v("DOT_PRODUCT", d, d), g.f("MULTIPLY", growth, growth)),
+                g.f("SUBTRACT", g.v("DOT_PRODUCT", p, d), g.f("MULTIPLY", r, growth)),
+                g.f("SUBTRACT", g.v("DOT_PRODUCT", p, p), g.f("MULTIPLY", r, r)))
+
+    def gradient(g, p):
+        return g.v("SUBTRACT", across(g, p), g.join(0.0, 0.0, g.f("MULTIPLY", radius(g, p), slope)))
+
+    return formula_hit(f, lambda g, p, d: nearest_root(g, *coefficients(g, p, d)), gradient)
 
 
 #: end
@@ -206,8 +319,7 @@ def plane_hit(o):
     position = choose(g, seen, geometry["Position"], exact)
     g.put(out["Position"], position)
     if "world" in o:
-        rows = np.linalg.inv(affine(o["world"]))[:3].tolist()
-        position = g.join(*(g.f("ADD", g.v("DOT_PRODUCT", position, tuple(row[:3])), row[3]) for row in rows))
+        position = by_rows(g, np.linalg.inv(affine(o["world"]))[:3].tolist(), position)
     g.put(out["P"], position)
     return g.tree
 

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "compiler/ir/function.h"
+
+#include <optional>
+
+namespace scc::compiler {
+
+/// The function, of one number, followed by its derivatives by p.x, p.y and p.z: four results. At kinks (min,
+/// abs, ...) they are one side's, as runtime/math/dual.h has them; between steps they are 0. Nothing where an
+/// operator has no formula for them: `noise`.
+std::optional<ir::Function> with_gradient(const ir::Function& function);
+
+} // namespace scc::compiler
