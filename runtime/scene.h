@@ -52,9 +52,9 @@ struct SceneTraits {
     friend constexpr bool operator==(const SceneTraits&, const SceneTraits&) = default;
 };
 
-inline constexpr SceneTraits everything{~0U,  ~0U,  ~0U,  ~0U,  true, true, true, true, true, true,
-                                        true, true, true, true, true, true, true, true, true, true, true,
-                                        true, true, true};
+inline constexpr SceneTraits everything{~0U,  ~0U,  ~0U,  ~0U,  true, true, true, true,
+                                        true, true, true, true, true, true, true, true,
+                                        true, true, true, true, true, true, true, true};
 
 /// What every shape in a scene carries.
 struct Tag {

@@ -20,8 +20,8 @@ protected:
     std::string against() const { return GetParam().against; }
 };
 
-// Blender has no unbounded quadrics, and no exact normals on tori that are parts of solids; spectra take it 27
-// pictures, which is too long here.
+// Blender has no unbounded quadrics, and no exact normals on tori that are parts of solids; spectra take it
+// 27 pictures, which is too long here.
 INSTANTIATE_TEST_SUITE_P(
     All, Examples,
     testing::Values(Example{"lecture", "pov,blender,native"}, Example{"mesh", "pov,blender,native"},
