@@ -257,7 +257,7 @@ TEST_F(Textures, OnMeshesPovReadsUvOrThePoint) {
     EXPECT_EQ(ledger_of("q(s.uv)", text), 0);
     EXPECT_NE(text.find("texture { uv_mapping m_"), std::string::npos) << text;
     EXPECT_NE(text.find("uv_vectors {\n        3, <0, 0>, <1, 0>, <0, 1>\n"), std::string::npos) << text;
-    EXPECT_EQ(ledger_of("s.p.x * q(s.uv)", text), 1);
+    EXPECT_EQ(ledger_of("s.p.x * q(s.uv)", text), 2); // diffuse, and ambient after it
 }
 
 TEST_F(Textures, NoiseWithoutBoundsIsDroppedForPov) {
