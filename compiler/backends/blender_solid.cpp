@@ -41,10 +41,11 @@ Scene solids_of(const ir::Scene& scene) {
     return result;
 }
 
-/// To a fifth of a pixel of the scene's own picture, where it is nearest to the camera: that is what outlines
-/// and shadows are off by, since the materials find the true surface.
+/// To a fifth of a pixel of the scene's own picture, a tenth in one of 240 rows or fewer, where outlines are
+/// a larger part of it, and where it is nearest to the camera: that is what outlines and shadows are off by,
+/// since the materials find the true surface.
 runtime::Tolerance<double> tolerance_for(const ir::Scene& scene, const Bounds<double>& box) {
-    constexpr double share_of_pixel = 0.2;
+    const double share_of_pixel = scene.settings.height > 240 ? 0.2 : 0.1;
     constexpr double finest = 4e-4,
                      coarsest = 1e-2; // of the solid's size: hundreds of thousands of triangles, and few
     const double size = length(box.max - box.min);

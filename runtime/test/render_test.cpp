@@ -90,6 +90,12 @@ struct Crowd {
     static void randomize_near(Shape& shape, Random<R>& random, double distance) {
         if constexpr (requires { shape.offset; }) {
             shape = {random.direction(), -60};
+        } else if constexpr (requires { shape.squares; }) {
+            // An ellipsoid: others would hide the rest.
+            const Vec3<R> squares{random.number(1, 4), random.number(1, 4), random.number(1, 4)};
+            const Vec3<R> center = random.vector(distance);
+            const Vec3<R> weighted{squares.x * center.x, squares.y * center.y, squares.z * center.z};
+            shape = {squares, random.vector(0.5), R(-2) * weighted, dot(weighted, center) - 1};
         } else if constexpr (!is_mesh<Shape>) {
             randomize(shape, random, distance);
         }
