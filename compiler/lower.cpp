@@ -144,6 +144,7 @@ private:
     std::optional<ir::Shape> heightfield_shape(const Thing& thing);
     std::optional<std::uint32_t> make_heightfield(const Thing& thing);
     std::uint32_t add_mesh(ir::Mesh mesh);
+    const std::string& opening_of(std::uint32_t mesh);
     std::optional<ir::Shape> mesh_shape(const Thing& thing);
     std::optional<std::uint32_t> load_mesh(const Thing& thing, const std::string& file, MeshNormals normals,
                                            bool with_uv);
@@ -157,7 +158,8 @@ private:
     std::map<MeshKey, std::optional<std::uint32_t>> meshes_;
     std::map<const Thing*, std::optional<std::uint32_t>> heightfields_;
     std::set<std::string> mesh_names_;
-    std::optional<host::Cache> cache_; ///< once a mesh asks for it
+    std::map<std::uint32_t, std::string> openings_; ///< of meshes in solids; empty: closed
+    std::optional<host::Cache> cache_;              ///< once a mesh asks for it
     std::set<std::string> paths_;
     std::vector<lang::ThingPtr> made_materials_; ///< of colours of lines
     std::vector<lang::ThingPtr> taken_apart_;    ///< things of rows; the materials refer to them
@@ -664,18 +666,24 @@ bool ObjectLowering::add_member(const Thing& thing, const Operand& here) {
     if (!shape) {
         return false;
     }
-    if (std::holds_alternative<runtime::Mesh<double>>(*shape)) {
-        diagnostics_.report(Diag::unsupported_setting, thing.span,
-                            fmt::format("a {} in a {}", thing.constructor->name, here.solid));
-        return false;
-    }
-    if (const std::string_view open = open_part(*shape); !open.empty()) {
-        diagnostics_.report(Diag::open_solid, place_of(thing, "caps"),
+    const auto* mesh = std::get_if<runtime::Mesh<double>>(&*shape);
+    const std::string open = mesh != nullptr ? opening_of(mesh->mesh) : std::string(open_part(*shape));
+    if (!open.empty()) {
+        diagnostics_.report(Diag::open_solid, mesh != nullptr ? thing.span : place_of(thing, "caps"),
                             fmt::format("this {} {}", thing.constructor->name, open), here.solid);
         return false;
     }
     add_leaf(*shape, here.path, here, thing.span);
     return true;
+}
+
+/// Each mesh is looked at once.
+const std::string& ObjectLowering::opening_of(std::uint32_t mesh) {
+    const auto [known, is_new] = openings_.try_emplace(mesh);
+    if (is_new) {
+        known->second = open_part(scene_.meshes[mesh]);
+    }
+    return known->second;
 }
 
 bool ObjectLowering::add_contained(const Thing& thing, const Operand& here) {

@@ -3,6 +3,16 @@
 #include "runtime/math/vec.h"
 #include "runtime/primitive.h"
 
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
 namespace scc::compiler {
 
 namespace {
@@ -84,6 +94,53 @@ std::string_view gap(const Shape& shape) {
 
 std::string_view problem(const ir::Shape& shape) {
     return std::visit([](const auto& s) { return rule(s); }, shape);
+}
+
+std::string open_part(const ir::Mesh& mesh) {
+    using Point = std::array<float, 3>;
+    const auto corner = [&](std::size_t i) {
+        const float* at = &mesh.positions[std::size_t{3} * mesh.indices[i]];
+        return Point{at[0] + 0.0F, at[1] + 0.0F, at[2] + 0.0F}; // no -0
+    };
+    std::map<Point, std::uint32_t> places;
+    std::vector<std::uint32_t> at(mesh.indices.size());
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        at[i] = places.try_emplace(corner(i), static_cast<std::uint32_t>(places.size())).first->second;
+    }
+    // Each edge once per triangle: from the smaller place to the greater, or back.
+    std::unordered_map<std::uint64_t, std::pair<int, std::size_t>> edges; // surplus of one way, some corner
+    edges.reserve(at.size() / 2 + 1);
+    double volume = 0; // six times
+    for (std::size_t i = 0; i + 2 < at.size(); i += 3) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t a = at[i + k], b = at[i + (k + 1) % 3];
+            if (a != b) {
+                auto& edge = edges[std::uint64_t{std::min(a, b)} << 32U | std::max(a, b)];
+                edge.first += a < b ? 1 : -1;
+                edge.second = i + k;
+            }
+        }
+        const auto vector = [&](std::size_t k) {
+            const Point p = corner(i + k);
+            return Vec3<double>{p[0], p[1], p[2]} - mesh.box.min;
+        };
+        volume += dot(vector(0), cross(vector(1), vector(2)));
+    }
+    std::size_t open = 0, first = at.size();
+    for (const auto& [ends, edge] : edges) {
+        if (edge.first != 0) {
+            ++open;
+            first = std::min(first, edge.second);
+        }
+    }
+    if (open > 0) {
+        const std::size_t triangle = first / 3 * 3;
+        const Point a = corner(first), b = corner(triangle + (first - triangle + 1) % 3);
+        return fmt::format("is open, or its triangles face to different sides: along {} edge{}, one from "
+                           "({}, {}, {}) to ({}, {}, {})",
+                           open, open == 1 ? "" : "s", a[0], a[1], a[2], b[0], b[1], b[2]);
+    }
+    return volume > 0 ? "" : "encloses nothing: its triangles face inwards";
 }
 
 std::string_view open_part(const ir::Shape& shape) {

@@ -2,6 +2,7 @@
 
 #include "compiler/ir/scene.h"
 
+#include <string>
 #include <string_view>
 
 namespace scc::compiler {
@@ -10,7 +11,11 @@ namespace scc::compiler {
 /// fine.
 std::string_view problem(const ir::Shape& shape);
 
-/// Why a shape cannot be a part of a solid. Empty if it can.
+/// Why a shape, no mesh, cannot be a part of a solid. Empty if it can.
 std::string_view open_part(const ir::Shape& shape);
+
+/// Why a mesh cannot be a part of a solid. Empty if it can: where each edge has as many triangles on one side
+/// as on the other, the corners being told apart by where they are, and the triangles face outwards.
+std::string open_part(const ir::Mesh& mesh);
 
 } // namespace scc::compiler

@@ -470,6 +470,113 @@ Corners<L> gather_corners(const IndexOf<L>& part, const MaskOf<L>& needed, Read&
 
 } // namespace detail
 
+namespace detail {
+
+/// Where a ray meets a triangle.
+template <class R>
+struct MeshCrossing {
+    R t;
+    bool outwards; ///< from behind
+    std::uint32_t part, id;
+
+    friend bool operator<(const MeshCrossing& a, const MeshCrossing& b) {
+        return a.t < b.t || (a.t == b.t && a.id < b.id);
+    }
+};
+
+/// All of them in the ray's range, in their order along it. A thread has one list for each R.
+template <class R>
+std::span<const MeshCrossing<R>> mesh_crossings(const MeshData& mesh, const Ray<R>& ray) {
+    thread_local std::vector<MeshCrossing<R>> list;
+    list.clear();
+    if (mesh.node_count == 0) {
+        return list;
+    }
+    const Bounds<float> box = bounds_of(mesh);
+    const SlabRay<R> slabs(ray, Bounds<R>{lanes<R>(box.min), lanes<R>(box.max)});
+    const R dir_size = largest_component(absolute(ray.dir));
+    RaysInTurns<R, 1> search;
+    search.add(0, slabs, ray.t_min, true);
+    search.run(mesh.nodes, &ray.t_max, [&](std::size_t, std::uint32_t first, std::uint32_t count) {
+        for (std::uint32_t which = 0; which < count; ++which) {
+            const TrianglePlace place{first, count, which};
+            const Corners<R> corners = corners_at<R>(mesh, place), relative = relative_to(ray.org, corners);
+            const EdgeFunctions<R> edges(TriangleView<R>(relative), ray.dir, dir_size);
+            bool met = edges.may_pass() && edges.pass(true, ray.dir, [&](int) { return relative; });
+            const Vec3<R> normal = plane_normal(corners);
+            const R t =
+                put_into_box(distance_to_plane(normal, relative.a, ray.dir), corners, slabs, ray.t_min, met);
+            if (met && t <= ray.t_max) {
+                list.push_back({t, dot(normal, ray.dir) > 0, part_of(place), triangle_id(mesh, place)});
+            }
+        }
+        return false;
+    });
+    std::sort(list.begin(), list.end());
+    return list;
+}
+
+/// How often a ray leaves the mesh more than it enters it where these, one behind the other by no more than
+/// rounding, are: triangles that face to the same side have an edge in common there, and one that is left
+/// behind one that is entered makes an outline.
+template <class R>
+int excess_of(std::span<const MeshCrossing<R>> group) {
+    const auto any = [&](bool outwards) {
+        return std::any_of(group.begin(), group.end(), [&](const auto& c) { return c.outwards == outwards; });
+    };
+    return static_cast<int>(any(true)) - static_cast<int>(any(false));
+}
+
+/// f(crossings, of which the rest is none) for those that are one, until it returns true.
+template <class R, class F>
+void for_each_crossing(std::span<const MeshCrossing<R>> list, const Ray<R>& ray, F&& f) {
+    const R away = largest_component(absolute(ray.org)) / largest_component(absolute(ray.dir));
+    for (std::size_t i = 0; i < list.size();) {
+        const R limit = list[i].t + 8 * roundoff<R>() * (away + std::abs(list[i].t));
+        const std::size_t begin = i;
+        while (i < list.size() && list[i].t <= limit) {
+            ++i;
+        }
+        if (f(list.subspan(begin, i - begin))) {
+            return;
+        }
+    }
+}
+
+} // namespace detail
+
+/// Where each active ray next enters or leaves what the mesh's triangles, which close it, have behind them:
+/// once or, where the mesh overlaps itself, several times.
+template <class L>
+Crossing<L> cross_mesh(const MeshData& mesh, const Ray<L>& rays) {
+    using R = RealOf<L>;
+    Crossing<L> result{{}, MaskOf<L>(false)};
+    for (unsigned left = bits(is_active(rays)); left != 0; left &= left - 1) {
+        const int i = __builtin_ctz(left);
+        const Ray<R> ray = lane(rays, i);
+        const auto crossings = detail::mesh_crossings(mesh, ray);
+        int depth = 0; // in how many layers of the mesh the ray is
+        detail::for_each_crossing(crossings, ray, [&](const auto& group) {
+            depth += detail::excess_of(group);
+            return false;
+        });
+        detail::for_each_crossing(crossings, ray, [&](const auto& group) {
+            const bool inside = depth > 0;
+            depth -= detail::excess_of(group);
+            if (inside == (depth > 0)) {
+                return false;
+            }
+            const auto met = std::find_if(group.begin(), group.end(),
+                                          [&](const auto& crossing) { return crossing.outwards == inside; });
+            set_lane(result.hit.t, i, met->t);
+            set_lane(result.hit.part, i, met->part);
+            set_lane(result.outwards, i, inside);
+            return true;
+        });
+    }
+    return result;
+}
+
 /// Of the lanes in `needed`, which have hit this mesh.
 template <bool SmoothNormals, class L>
 Surface<L> mesh_surface(const MeshData& mesh, const Ray<L>& ray, const ShapeHit<L>& hit,

@@ -36,7 +36,7 @@ inline constexpr bool has_uv = is_mesh<Shape> || requires(const Shape& s, const 
 };
 /// Whether it can be a member of solids made of others.
 template <class Shape>
-inline constexpr bool is_solid = is_convex<Shape> || is_implicit<Shape> ||
+inline constexpr bool is_solid = is_convex<Shape> || is_implicit<Shape> || is_mesh<Shape> ||
                                  requires(const Shape& s, const Ray<double>& ray) {
     s.cross(ray);
 };
@@ -161,6 +161,8 @@ template <class S, class Shape, class L>
 Crossing<L> cross_shape([[maybe_unused]] const S& scene, const Shape& shape, const Ray<L>& ray) {
     if constexpr (is_implicit<Shape>) {
         return cross_implicit(shape, ray, field_of(scene, shape));
+    } else if constexpr (is_mesh<Shape>) {
+        return cross_mesh(scene.meshes[shape.mesh], ray);
     } else {
         return shape.cross(ray);
     }

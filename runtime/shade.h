@@ -519,7 +519,7 @@ private:
         if constexpr (requires { shape.caps; }) {
             return shape.caps;
         } else {
-            return is_solid<Shape> || is_mesh<Shape>;
+            return is_solid<Shape>;
         }
     }
 

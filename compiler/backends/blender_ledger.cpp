@@ -41,6 +41,8 @@ Account account(const Shape&, bool mirror, bool smooth, bool pattern) {
                 0.004};
     } else if constexpr (std::is_same_v<Shape, Quadric<double>>) {
         return {Fidelity::dropped, "Blender has no quadrics, and a mesh of it is not made yet"};
+    } else if constexpr (std::is_same_v<Shape, Csg<double>>) {
+        return {Fidelity::dropped, "a mesh is part of it, and a mesh of the whole is not made yet"};
     } else if constexpr (std::is_same_v<Shape, Disc<double>>) {
         return {Fidelity::approximated, "a polygon; bound of its rim in pixels", 0.004};
     } else if constexpr (std::is_same_v<Shape, Plane<double>>) {

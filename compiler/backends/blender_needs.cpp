@@ -254,9 +254,13 @@ private:
     }
     void add(const ir::Object& object, const runtime::Implicit<double>&) { add_solid(object); }
     void add_solid(const ir::Object& object) {
+        const auto solid = needs_.solids.find(object.path);
+        if (solid == needs_.solids.end()) {
+            return; // dropped
+        }
         want("solid");
         want("flat");
-        for (const BlenderFace& face : needs_.solids.at(object.path).faces) {
+        for (const BlenderFace& face : solid->second.faces) {
             add(face.sides);
             want_formula(face);
         }

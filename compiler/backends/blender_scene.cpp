@@ -258,6 +258,9 @@ private:
                 solid != needs_.solids.end()
                     ? "type=\"solid\""
                     : std::visit([&](const auto& shape) { return described(shape); }, object.shape);
+            if (text.empty()) {
+                return; // dropped
+            }
             text += fmt::format(", name={}", python(object.path));
             text += ", " + (solid != needs_.solids.end() ? faces(solid->second) : materials(object.sides));
             if (!(object.world_from_object == runtime::Affine<double>{})) {
@@ -302,7 +305,7 @@ private:
         const std::string normals = t.smooth ? ", normals=" + triple(t.normals) : "";
         return fmt::format("type=\"triangle\", points={}{}", triple(t.points), normals);
     }
-    static std::string described(const runtime::Csg<double>&) { return ""; }      // by its faces
+    static std::string described(const runtime::Csg<double>&) { return ""; }      // by its faces, or dropped
     static std::string described(const runtime::Implicit<double>&) { return ""; } // by its faces
 
     std::string faces(const BlenderSolid& solid) const {

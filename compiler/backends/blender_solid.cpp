@@ -228,7 +228,9 @@ BlenderSolids blender_solids(const ir::Scene& scene) {
             solids.emplace(object.path, make_solid(scene, tables, object, shape));
         };
         if (const auto* csg = std::get_if<runtime::Csg<double>>(&object.shape)) {
-            add(*csg);
+            if (!ir::has_mesh(scene, *csg)) {
+                add(*csg);
+            }
         } else if (const auto* implicit = std::get_if<runtime::Implicit<double>>(&object.shape)) {
             add(*implicit);
         }

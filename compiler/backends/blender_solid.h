@@ -45,7 +45,7 @@ std::optional<ir::Function> field_for_nodes(const ir::Function& field);
 /// By the objects' paths.
 using BlenderSolids = std::map<std::string, BlenderSolid>;
 
-/// Of all implicit surfaces and solids made of others, to a fraction of the camera's pixels.
+/// Of all implicit surfaces, and solids made of others than meshes, to a fraction of the camera's pixels.
 BlenderSolids blender_solids(const ir::Scene& scene);
 
 } // namespace scc::compiler

@@ -364,7 +364,13 @@ private:
     void declare_mesh_of(const ir::Object& object) {
         const auto* mesh = std::get_if<runtime::Mesh<double>>(&object.shape);
         if (mesh != nullptr && declared_meshes_.insert(mesh->mesh).second) {
-            declare_mesh(scene_.meshes[mesh->mesh], mesh_names_[mesh->mesh], scene_.traits.uv, meshes_);
+            const bool is_solid =
+                std::any_of(scene_.members.begin(), scene_.members.end(), [&](const ir::Object& member) {
+                    const auto* used = std::get_if<runtime::Mesh<double>>(&member.shape);
+                    return used != nullptr && used->mesh == mesh->mesh;
+                });
+            declare_mesh(scene_.meshes[mesh->mesh], mesh_names_[mesh->mesh], scene_.traits.uv, is_solid,
+                         meshes_);
         }
     }
 

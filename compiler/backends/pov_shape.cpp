@@ -205,7 +205,7 @@ runtime::Bounds<double> pov_field_box(const runtime::Container<double>& containe
     return box;
 }
 
-void declare_mesh(const ir::Mesh& mesh, const std::string& name, bool with_uvs, Writer& out) {
+void declare_mesh(const ir::Mesh& mesh, const std::string& name, bool with_uvs, bool is_solid, Writer& out) {
     out.line("#declare {} = mesh2 {{", name);
     out.indent();
     list_vectors(out, "vertex_vectors", mesh.positions, static_cast<float>(mesh_scale(mesh)));
@@ -223,6 +223,9 @@ void declare_mesh(const ir::Mesh& mesh, const std::string& name, bool with_uvs, 
     }
     if (has_uvs) {
         list_faces(out, "uv_indices", mesh.uv_indices);
+    }
+    if (is_solid) {
+        out.line("inside_vector <0.4837, 0.7512, -0.4493> // along which edges are rare");
     }
     out.dedent();
     out.line("}}");

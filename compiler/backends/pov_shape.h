@@ -38,7 +38,7 @@ PovShape pov_shape(const ir::Shape& shape, const Placement& placement,
 /// In which POV-Ray looks at the field of an implicit surface.
 runtime::Bounds<double> pov_field_box(const runtime::Container<double>& container);
 
-/// `#declare NAME = mesh2 { ... }`
-void declare_mesh(const ir::Mesh& mesh, const std::string& name, bool with_uvs, Writer& out);
+/// `#declare NAME = mesh2 { ... }`; `is_solid`: with an inside.
+void declare_mesh(const ir::Mesh& mesh, const std::string& name, bool with_uvs, bool is_solid, Writer& out);
 
 } // namespace scc::compiler

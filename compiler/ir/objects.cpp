@@ -51,6 +51,15 @@ std::vector<double> iors_of_solid(const Scene& scene, std::size_t root) {
     return iors;
 }
 
+bool has_mesh(const Scene& scene, const runtime::Csg<double>& solid) {
+    bool result = false;
+    for_each_csg_node(scene, solid, [&](const CsgNode& node) {
+        result = result || (node.op == runtime::CsgOp::member &&
+                            std::holds_alternative<runtime::Mesh<double>>(scene.members[node.member].shape));
+    });
+    return result;
+}
+
 std::vector<double> iors_of(const Scene& scene, const Object& object) {
     if (const auto* solid = std::get_if<runtime::Csg<double>>(&object.shape)) {
         return iors_of_solid(scene, solid->root);

@@ -21,6 +21,9 @@ std::size_t object_count(const Scene& scene);
 std::vector<double> iors_of(const Scene& scene, const Object& object);
 std::vector<double> iors_of_solid(const Scene& scene, std::size_t root);
 
+/// Whether a member of the solid is a mesh.
+bool has_mesh(const Scene& scene, const runtime::Csg<double>& solid);
+
 /// Those of the material's fields; runtime::no_function where one is constant.
 std::array<std::int32_t, 7> functions_of(const runtime::Phong<double>& phong);
 

@@ -20,9 +20,7 @@ bool is_present(const Varying<Rgb<double>>& color) {
     return color.function != runtime::no_function || !(color.value == Rgb<double>{});
 }
 
-void need(SceneTraits& traits, const ir::Object& object, const ir::Scene& scene) {
-    const std::uint32_t bit = 1U << object.shape.index();
-    (object.world_from_object == Affine<double>{} ? traits.bare_shapes : traits.placed_shapes) |= bit;
+void need_surface(SceneTraits& traits, const ir::Object& object, const ir::Scene& scene) {
     traits.two_sided |= object.sides.front != object.sides.back;
     if (const auto* triangle = std::get_if<runtime::Triangle<double>>(&object.shape)) {
         traits.smooth_normals |= triangle->smooth;
@@ -31,10 +29,16 @@ void need(SceneTraits& traits, const ir::Object& object, const ir::Scene& scene)
     }
 }
 
-void need_member(SceneTraits& traits, const ir::Object& member) {
+void need(SceneTraits& traits, const ir::Object& object, const ir::Scene& scene) {
+    const std::uint32_t bit = 1U << object.shape.index();
+    (object.world_from_object == Affine<double>{} ? traits.bare_shapes : traits.placed_shapes) |= bit;
+    need_surface(traits, object, scene);
+}
+
+void need_member(SceneTraits& traits, const ir::Object& member, const ir::Scene& scene) {
     const std::uint32_t bit = 1U << member.shape.index();
     (member.world_from_object == Affine<double>{} ? traits.bare_members : traits.placed_members) |= bit;
-    traits.two_sided |= member.sides.front != member.sides.back;
+    need_surface(traits, member, scene);
 }
 
 void need(SceneTraits& traits, const ir::ObjectColumn& column) {
@@ -118,7 +122,7 @@ std::vector<Need> needs_of(const ir::Scene& scene) {
             }
         });
     for (const ir::Object& member : scene.members) {
-        need_member(needs.emplace_back(SceneTraits{}, member.span).traits, member);
+        need_member(needs.emplace_back(SceneTraits{}, member.span).traits, member, scene);
     }
     for (const ir::Material& material : scene.materials) {
         SceneTraits& traits = needs.emplace_back(SceneTraits{}, material.span).traits;

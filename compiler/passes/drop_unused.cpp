@@ -77,13 +77,13 @@ void drop_materials(ir::Scene& scene) {
     });
 }
 
-/// No array holds implicit surfaces.
-template <class Visit>
-void for_each_field(ir::Scene& scene, Visit visit) {
+/// Those of a kind that no array holds.
+template <class Shape, class Visit>
+void for_each_of(ir::Scene& scene, Visit visit) {
     for (auto* objects : {&scene.objects, &scene.members}) {
         for (ir::Object& object : *objects) {
-            if (auto* implicit = std::get_if<runtime::Implicit<double>>(&object.shape)) {
-                visit(implicit->field);
+            if (auto* shape = std::get_if<Shape>(&object.shape)) {
+                visit(*shape);
             }
         }
     }
@@ -101,15 +101,16 @@ void for_each_function_index(ir::Scene& scene, Visit visit) {
 
 void drop_functions(ir::Scene& scene) {
     std::vector<bool> used(scene.functions.size());
-    for_each_field(scene, [&](std::int32_t field) { used[static_cast<std::size_t>(field)] = true; });
+    for_each_of<runtime::Implicit<double>>(
+        scene, [&](auto& shape) { used[static_cast<std::size_t>(shape.field)] = true; });
     for_each_function_index(scene, [&](std::int32_t index) {
         if (index >= 0) {
             used[static_cast<std::size_t>(index)] = true;
         }
     });
     const auto renumbered = keep(scene.functions, used);
-    for_each_field(scene, [&](std::int32_t& field) {
-        field = static_cast<std::int32_t>(renumbered[static_cast<std::size_t>(field)]);
+    for_each_of<runtime::Implicit<double>>(scene, [&](auto& shape) {
+        shape.field = static_cast<std::int32_t>(renumbered[static_cast<std::size_t>(shape.field)]);
     });
     for_each_function_index(scene, [&](std::int32_t& index) {
         if (index >= 0) {
@@ -118,20 +119,11 @@ void drop_functions(ir::Scene& scene) {
     });
 }
 
-/// No array holds meshes, nor does a solid.
 void drop_meshes(ir::Scene& scene) {
     std::vector<bool> used(scene.meshes.size());
-    for (const ir::Object& object : scene.objects) {
-        if (const auto* mesh = std::get_if<runtime::Mesh<double>>(&object.shape)) {
-            used[mesh->mesh] = true;
-        }
-    }
+    for_each_of<runtime::Mesh<double>>(scene, [&](auto& mesh) { used[mesh.mesh] = true; });
     const auto renumbered = keep(scene.meshes, used);
-    for (ir::Object& object : scene.objects) {
-        if (auto* mesh = std::get_if<runtime::Mesh<double>>(&object.shape)) {
-            mesh->mesh = renumbered[mesh->mesh];
-        }
-    }
+    for_each_of<runtime::Mesh<double>>(scene, [&](auto& mesh) { mesh.mesh = renumbered[mesh.mesh]; });
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "compiler/coincident_faces.h"
 #include "compiler/lower.h"
 #include "compiler/passes/passes.h"
+#include "compiler/shape_rules.h"
 #include "compiler/test/support.h"
 
 #include <gtest/gtest.h>
@@ -462,6 +463,33 @@ TEST_F(LowerMesh, OneFileIsReadOnceForManyObjects) {
     ASSERT_TRUE(c.fine) << c.messages;
     EXPECT_EQ(c.scene.objects.size(), 5U);
     EXPECT_EQ(c.scene.meshes.size(), 1U);
+}
+
+/// With each triangle's corners on their own, which are told apart by where they are.
+std::string opening(const std::vector<std::array<int, 3>>& triangles) {
+    constexpr float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    ir::MeshArrays arrays;
+    for (const auto& triangle : triangles) {
+        for (const int corner : triangle) {
+            arrays.indices.push_back(static_cast<std::uint32_t>(arrays.indices.size()));
+            arrays.positions.insert(arrays.positions.end(), corners[corner], corners[corner] + 3);
+        }
+    }
+    return open_part(ir::make_mesh("m", std::move(arrays)));
+}
+
+TEST(MeshInSolid, IsClosedAndFacesOutwards) {
+    EXPECT_EQ(opening({{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}), "");
+    EXPECT_EQ(opening({{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}),
+              "encloses nothing: its triangles face inwards");
+    EXPECT_EQ(opening({{0, 2, 1}, {0, 1, 3}, {0, 3, 2}}),
+              "is open, or its triangles face to different sides: along 3 edges, one from (0, 1, 0) to "
+              "(1, 0, 0)");
+    EXPECT_NE(opening({{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 3, 2}}), "") << "one is turned over";
+    // Two bodies with an edge in common.
+    EXPECT_EQ(
+        opening({{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}),
+        "");
 }
 
 } // namespace

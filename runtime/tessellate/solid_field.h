@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <vector>
 
 /// A solid as a function of the point, negative inside: the largest or smallest of smooth functions, one for
@@ -309,8 +310,13 @@ private:
     void add_node(std::uint32_t at, bool inverted) {
         const CsgNode& node = scene_.csg_nodes[at];
         if (node.op == CsgOp::member) {
-            visit_member(scene_, node.member,
-                         [&](const auto& member) { add_primitive(member.primitive, node.member, inverted); });
+            visit_member(scene_, node.member, [&](const auto& member) {
+                if constexpr (is_mesh<decltype(member.primitive.shape)>) {
+                    throw std::logic_error("a mesh in a solid has no field");
+                } else {
+                    add_primitive(member.primitive, node.member, inverted);
+                }
+            });
             return;
         }
         add_group((node.op == CsgOp::unite) == inverted, [&] {

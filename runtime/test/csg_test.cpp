@@ -252,6 +252,37 @@ TYPED_TEST(SolidScene, PolyhedronOfHalfSpacesIsBounded) {
     EXPECT_FALSE(is_hit(along_z<R>(solid, R(1.3), R(0.4))));
 }
 
+/// Two octahedra in one mesh, which have a part in common; rays go through corners and edges of both.
+TYPED_TEST(SolidScene, MeshThatOverlapsItselfIsOneBody) {
+    using R = TypeParam;
+    std::vector<float> positions = octahedron_corners();
+    std::vector<std::uint32_t> indices(std::begin(octahedron_triangles), std::end(octahedron_triangles));
+    for (const float corner : octahedron_corners(0.5F)) {
+        positions.push_back(corner);
+    }
+    for (const std::uint32_t corner : octahedron_triangles) {
+        indices.push_back(corner + 6);
+    }
+    const MeshStorage both = build_mesh(positions, indices);
+    const auto crossings = [&](Ray<R> ray) {
+        std::vector<R> result;
+        for (Crossing<R> next; (next = cross_mesh<R>(both.data(), ray)).hit.t < infinity<R>();) {
+            EXPECT_EQ(next.outwards, result.size() % 2 == 1);
+            result.push_back(ray.org.x + next.hit.t * ray.dir.x);
+            ray.t_min = next.hit.t + R(1e-4);
+        }
+        return result;
+    };
+    EXPECT_EQ(crossings({{-4, 0, 0}, {1, 0, 0}}), (std::vector<R>{-0.75, 1.25})); // corners
+    EXPECT_EQ(crossings({{-4, 0.25, 0}, {1, 0, 0}}), (std::vector<R>{-0.5, 1}));  // edges
+    EXPECT_EQ(crossings({{-4, 0.125, 0.125}, {1, 0, 0}}), (std::vector<R>{-0.5, 1}));
+    EXPECT_EQ(crossings({{-4, 0.625, 0}, {1, 0, 0}}), (std::vector<R>{-0.125, 0.125, 0.375, 0.625}));
+    EXPECT_EQ(crossings({{-4, 0.75, 0}, {1, 0, 0}}), std::vector<R>{}); // an outline
+    const Crossing<R> out = cross_mesh<R>(both.data(), {{1, 0, 0}, {0, -1, 0}});
+    EXPECT_EQ(out.hit.t, R(0.25));
+    EXPECT_TRUE(out.outwards);
+}
+
 TYPED_TEST(SolidScene, HierarchyMeetsTheSame) {
     using R = TypeParam;
     using L = WidestLane<R>;

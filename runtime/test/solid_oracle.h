@@ -89,11 +89,30 @@ bool contains(const Implicit<R>& s, const Wide& p) {
     return in_container && dot(p, p) + std::sin(5 * p.x) * std::sin(5 * p.y) / 2 - 0.5L <= 0;
 }
 
+/// The one mesh of the scenes here: an octahedron, of which corners and edges are many.
+inline constexpr float octahedron_reach = 0.75F;
+inline std::vector<float> octahedron_corners(float shift = 0) {
+    constexpr float r = octahedron_reach;
+    return {shift + r, 0, 0, shift - r, 0, 0, shift, r, 0, shift, -r, 0, shift, 0, r, shift, 0, -r};
+}
+inline constexpr std::uint32_t octahedron_triangles[] = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4,
+                                                         2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
+inline const MeshStorage& octahedron() {
+    static const MeshStorage mesh = build_mesh(octahedron_corners(), octahedron_triangles);
+    return mesh;
+}
+template <class R>
+bool contains(const Mesh<R>&, const Wide& p) {
+    const Wide q = absolute(p);
+    return q.x + q.y + q.z <= static_cast<long double>(octahedron_reach);
+}
+
 template <class R>
 struct Node {
     CsgOp op = CsgOp::member;
     std::vector<Node> operands{};
-    std::variant<Sphere<R>, Box<R>, Plane<R>, Cylinder<R>, Cone<R>, Implicit<R>, Torus<R>, Quadric<R>>
+    std::variant<Sphere<R>, Box<R>, Plane<R>, Cylinder<R>, Cone<R>, Implicit<R>, Torus<R>, Quadric<R>,
+                 Mesh<R>>
         shape{};
     std::optional<Affine<double>> place{};
     Affine<long double> object_from_world{}; ///< of the rounded place
@@ -117,7 +136,7 @@ Node<R> random_node(Random<R>& random, int depth) {
         }
         node.shape = shape;
     };
-    switch (static_cast<int>(random.number(0, 7.999))) {
+    switch (static_cast<int>(random.number(0, 8.999))) {
     case 0:
         make(Sphere<R>{});
         break;
@@ -142,6 +161,9 @@ Node<R> random_node(Random<R>& random, int depth) {
     case 6:
         make(Quadric<R>{});
         break;
+    case 7:
+        node.shape = Mesh<R>{0};
+        break;
     default:
         make(Cone<R>{});
         break;
@@ -164,6 +186,7 @@ struct Solid {
 
     void add(Node<R> tree) {
         scene.functions.resize(1, dented_ball<R>());
+        scene.meshes.resize(1, octahedron().data());
         const auto root = static_cast<std::uint32_t>(scene.csg_nodes.size());
         scene.add(Bare<Csg<R>>{{root}, {next_id++, {}}});
         add_node(tree, false);

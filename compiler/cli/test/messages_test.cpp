@@ -40,7 +40,8 @@ const std::map<Diag, Case>& cases() {
           "scale(2e-8, 1, 1)\n"
           "    sphere { transform = rotate_z(45deg) }\n  }\n}\n"}},
         {Diag::open_solid,
-         {"difference {\n  box { }\n  cylinder { radius = 0.5, caps = false }\n  disc { }\n}\n"}},
+         {"difference {\n  box { }\n  cylinder { radius = 0.5, caps = false }\n  disc { }\n"
+          "  heightfield { field = fn(uv: vec2) = uv.x, cells = (2, 2) }\n}\n"}},
         {Diag::unbounded_solid, {"union {\n  sphere { }\n  plane { }\n}\n"}},
         {Diag::empty_solid,
          {"intersection {\n  sphere { }\n  sphere { center = (5, 0, 0) }\n}\nsphere { }\n"}},
