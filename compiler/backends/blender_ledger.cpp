@@ -293,12 +293,12 @@ private:
             add({Fidelity::exact, scene_.settings.shadows ? "Cycles' shadow rays" : "lamps without shadows"},
                 "shadows", "render", scene_.camera_span);
         }
-        if (scene_.settings.samples_per_axis > 1) {
+        if (scene_.settings.samples > 1) {
             add({Fidelity::exact,
                  fmt::format(
                      "by `--size` {0} times larger and the mean of {0} x {0} pixels; the script itself takes "
                      "one sample",
-                     scene_.settings.samples_per_axis)},
+                     samples_per_axis(scene_.settings))},
                 "samples", "render", scene_.camera_span);
         }
     }

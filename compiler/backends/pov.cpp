@@ -120,8 +120,8 @@ private:
         if (!settings.shadows) {
             note(Fidelity::exact, "shadows", "render", {}, "every object is no_shadow");
         }
-        if (settings.samples_per_axis > 1) {
-            const int n = settings.samples_per_axis;
+        if (settings.samples > 1) {
+            const int n = samples_per_axis(settings);
             note(Fidelity::exact, "samples", "render", {},
                  fmt::format("a picture {} times larger, averaged over {} x {} pixels, is the sampled one", n,
                              n, n));

@@ -52,7 +52,7 @@ protected:
         Image ours(theirs.width, theirs.height);
         runtime::RenderRequest request;
         request.settings = scene.settings;
-        request.settings.samples_per_axis = 1;
+        request.settings.samples = 1;
         request.crop = {0, 0, ours.width, ours.height};
         make_drawable(scene, Precision::full).render(request, ours);
         int count = 0;

@@ -53,7 +53,7 @@ protected:
         Image image(scene.settings.width, scene.settings.height);
         runtime::RenderRequest request;
         request.settings = scene.settings;
-        request.settings.samples_per_axis = 1;
+        request.settings.samples = 1;
         request.crop = {0, 0, image.width, image.height};
         make_drawable(scene, Precision::full).render(request, image);
         return image;

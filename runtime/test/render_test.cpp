@@ -139,7 +139,7 @@ TYPED_TEST_SUITE(Rendering, Reals);
 
 TYPED_TEST(Rendering, CompiledSceneDrawsTheGenericImage) {
     RenderRequest wanted = request(203, 117);
-    wanted.settings.samples_per_axis = 2;
+    wanted.settings.samples = 4;
     const Image compiled = draw(LectureScene<TypeParam>{}, wanted);
     EXPECT_TRUE(is_varied(compiled));
     EXPECT_TRUE(same_bits(compiled, draw(generic_lecture_scene<TypeParam>(), wanted)));
@@ -273,7 +273,7 @@ TEST(Render, CompiledSceneDrawsTheGenericImageInTheReferencePrecision) {
 TEST(Render, SamplesAreTheCentresOfSubPixelsWithABoxFilter) {
     const LectureScene<double> scene;
     RenderRequest wanted = request(64, 48);
-    wanted.settings.samples_per_axis = 3;
+    wanted.settings.samples = 9;
     const Image sampled = draw(scene, wanted), fine = draw(scene, request(192, 144));
     int differing = 0;
     for (int y = 0; y < 48; ++y) {
@@ -292,7 +292,7 @@ TEST(Render, CountsItsRays) {
     const LectureScene<double> scene;
     Image image(50, 40);
     RenderRequest wanted = request(50, 40, 2);
-    wanted.settings.samples_per_axis = 2;
+    wanted.settings.samples = 4;
     const RenderResult result = render(scene, wanted, image);
     EXPECT_EQ(result.rays.primary, 50U * 40 * 4);
     EXPECT_GT(result.rays.shadow, result.rays.primary / 2);
@@ -306,7 +306,7 @@ TEST(Render, CountsItsRays) {
 TEST(Render, ProgressCanEndItEarly) {
     const LectureScene<double> scene;
     RenderRequest wanted = request(640, 480, 2);
-    wanted.settings.samples_per_axis = 30;
+    wanted.settings.samples = 900;
     int calls = 0;
     double part = -1;
     wanted.progress = [&](double done) {
