@@ -1,5 +1,6 @@
 #include "compiler/backends/blender_ledger.h"
 
+#include "compiler/backends/sampling_ledger.h"
 #include "compiler/backends/spectra.h"
 #include "compiler/ir/objects.h"
 #include "runtime/illumination.h"
@@ -265,9 +266,21 @@ private:
     }
 
     void record_camera() {
-        const bool perspective = scene_.camera.projection == runtime::Projection::perspective;
+        const runtime::Camera<double>& camera = scene_.camera;
         add({Fidelity::exact, "one ray through each pixel's centre"},
-            perspective ? "perspective_camera" : "orthographic_camera", "camera", scene_.camera_span);
+            fmt::format("{}_camera", word(runtime::projection_names, camera.projection)), "camera",
+            scene_.camera_span);
+        if (camera.lens_radius > 0) {
+            add({Fidelity::approximated,
+                 "Cycles' depth of field, 64 random points of the lens per pixel (`--samples`); bound: standard "
+                 "error of the mean over the range of what they see",
+                 1 / (2 * std::sqrt(64.0))},
+                "aperture", "camera", scene_.camera_span);
+        }
+        if (scene_.settings.point == runtime::PixelPoint::corner) {
+            add({Fidelity::exact, "the window is shifted by half a pixel"}, "sampling", "render",
+                scene_.sampling_span);
+        }
         if (needs_.extent < smallest_scene) {
             add({Fidelity::dropped, "Blender's camera sees nothing nearer than 1e-6"}, "scale", "scene",
                 scene_.camera_span);
@@ -301,6 +314,7 @@ private:
                      samples_per_axis(scene_.settings))},
                 "samples", "render", scene_.camera_span);
         }
+        record_sampling(scene_, ledger_);
     }
 
     const ir::Scene& scene_;

@@ -96,9 +96,9 @@ RendererReport run_native(const Subject& subject) {
     result.renderer = "native";
     const std::string program = (subject.folder.path() / "native").string();
     try {
-        compile_native(
-            emit_cpp(subject.loaded.scene, compiler::Precision::full, compiler::Numbers::as_values), {},
-            program);
+        ir::Scene scene = subject.loaded.scene;
+        scene.settings = subject.request.settings;
+        compile_native(emit_cpp(scene, compiler::Precision::full, compiler::Numbers::as_values), {}, program);
     } catch (const EnvironmentError& error) {
         result.judgement = {Verdict::skipped, error.what()};
         return result;
@@ -256,6 +256,7 @@ std::unique_ptr<Subject> prepare_subject(const Options& options, const std::stri
         return nullptr;
     }
     subject->request = make_request(options.render, subject->loaded.scene.settings);
+    subject->request.settings = with_plain_grid(subject->request.settings); // which all renderers can have
     subject->report.name = subject->loaded.scene.name;
     draw_reference(*subject);
     return subject;

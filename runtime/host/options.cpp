@@ -107,7 +107,7 @@ constexpr auto rows = std::to_array<OptionRow>({
      true, [](RenderOptions& options, const std::string& text) { options.output = text; }},
     {"--size", nullptr, "WxH", "size in pixels", true, false, set_size},
     {"--samples", nullptr, "N", "samples per pixel; of a grid a square number", true, false, set_samples},
-    {"--filter", nullptr, "NAME", "weights of samples: box, mitchell, gaussian or blackman_harris", true, false,
+    {"--filter", nullptr, "NAME", "weights of samples: box, mitchell, gaussian or blackman_harris", false, false,
      set_filter},
     {"--threads", nullptr, "N", "threads; default: one per core", true, false, set_threads},
     {"--crop", nullptr, "X0,Y0,X1,Y1", "draw only these pixels, rows from the top, ends excluded", false,

@@ -46,7 +46,7 @@ struct OptionRow {
     const char* short_name; ///< or null
     const char* value;      ///< what stands for the value in the help
     const char* help;
-    bool picture; ///< says how the picture is drawn, and not where it goes
+    bool picture; ///< says how a picture is drawn that is compared with others', and not where it goes
     bool required;
     /// Throws UsageError for a bad value; the text says what a good one is.
     void (*set)(RenderOptions&, const std::string& value);
