@@ -81,6 +81,7 @@ const std::map<Diag, Case>& cases() {
          {"sphere { center = (frame, 0, 0) }\nrender { frames = 2..5 }\n",
           {"build", "s.scn", "-o", "s.ir", "--emit", "ir"}}},
         {Diag::raster_skipped, {"sphere { }\nrender { method = raster { } }\n"}},
+        {Diag::unsupported_setting, {"union {\n  sphere { }\n  mesh { file = \"plain.obj\" }\n}\n"}},
         {Diag::not_exportable, {tiny, export_blender}},
         {Diag::dropped, {tiny, export_with_drop}},
     };
