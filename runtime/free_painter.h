@@ -151,7 +151,9 @@ private:
                 set_lane(y, lane, within.y);
                 set_lane(inside[pack], lane, i < count);
             }
-            rays[pack] = camera_.ray(camera_.window_x(column, x), camera_.window_y(row, y), sample_of);
+            const L window_x = camera_.window_x(column, x), window_y = camera_.window_y(row, y);
+            rays[pack] = camera_.straight_ray(window_x, window_y);
+            camera_.bend(window_x, window_y, sample_of, rays[pack]);
         }
         rays_.primary += static_cast<std::uint64_t>(count);
         shader_.radiance(rays, camera_.apex(), candidates_, inside, colors);

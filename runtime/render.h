@@ -211,10 +211,11 @@ private:
                 const Positions& row = rows_[static_cast<std::size_t>(pack_j / pack_height)];
                 const auto pack = static_cast<std::size_t>(p);
                 inside[pack] = column.inside & row.inside;
-                rays[pack] = renderer_.camera_.ray(column.window, row.window, [&](int lane) {
-                    return sample_of(pack_i, pack_j, lane);
-                });
+                rays[pack] = renderer_.camera_.straight_ray(column.window, row.window);
                 rays_.primary += count_lanes(inside[pack]);
+            }
+            if (!renderer_.camera_.is_straight()) {
+                bend(i, above + j, rays);
             }
             shader_.radiance(rays, renderer_.camera_.apex(), candidates_, inside, colors);
             for (int p = 0; p < packs; ++p) {
@@ -224,6 +225,18 @@ private:
                 keep(color.r, sample_at(0, pack_i, pack_j));
                 keep(color.g, sample_at(1, pack_i, pack_j));
                 keep(color.b, sample_at(2, pack_i, pack_j));
+            }
+        }
+        /// The rays of the block from (i, j) of the tile's samples on.
+        [[gnu::noinline]] void bend(int i, int j, std::array<Ray<L>, packs>& rays) const {
+            for (int p = 0; p < packs; ++p) {
+                const int pack_i = i + p % packs_across * pack_width,
+                          pack_j = j + p / packs_across * pack_height;
+                renderer_.camera_.bend(
+                    columns_[static_cast<std::size_t>(pack_i / pack_width)].window,
+                    rows_[static_cast<std::size_t>(pack_j / pack_height)].window,
+                    [&](int lane) { return sample_of(pack_i, pack_j, lane); },
+                    rays[static_cast<std::size_t>(p)]);
             }
         }
         void keep(const L& values, R* to) const {

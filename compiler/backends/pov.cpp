@@ -192,13 +192,14 @@ private:
         camera_.line("up {}", pov_vector((2 * half) * c.v));
     }
 
+    /// POV-Ray turns the direction about `up` and `right` in a left-handed world.
     void emit_spherical() {
         const runtime::Camera<double>& c = scene_.camera;
         constexpr double degrees = 180 / std::numbers::pi;
         camera_.line("location {}", pov_vector(frame_.point(c.eye)));
         camera_.line("direction {}", pov_vector(-c.n));
-        camera_.line("right {}", pov_vector(c.u));
-        camera_.line("up {}", pov_vector(c.v));
+        camera_.line("right {}", pov_vector(-c.u));
+        camera_.line("up {}", pov_vector(-c.v));
         camera_.line("angle {}, {}", number(2 * c.half_width * degrees), number(2 * c.half_height * degrees));
     }
 
