@@ -238,7 +238,8 @@ std::string unique_light_name(const Thing& thing, std::set<std::string>& taken) 
 
 void lower_sampling(const Thing& ray, runtime::RenderSettings& settings, lang::Diagnostics& diagnostics) {
     settings.samples = static_cast<int>(to_number(*ray.get("samples")));
-    settings.filter = runtime::choice_of<runtime::PixelFilter>(runtime::filter_names, to_text(*ray.get("filter")));
+    settings.filter =
+        runtime::choice_of<runtime::PixelFilter>(runtime::filter_names, to_text(*ray.get("filter")));
     if (const lang::Value* adaptive = ray.get("adaptive"); adaptive != nullptr) {
         settings.adaptive = to_number(*adaptive);
         settings.sampler = runtime::Sampler::low_discrepancy;
@@ -278,8 +279,8 @@ void lower_settings(const lang::Module& module, const Rendition& rec709, ir::Sce
     const auto& size = std::get<lang::Vec2Value>(render->get("size")->v).v;
     scene.settings.width = static_cast<int>(size[0].value);
     scene.settings.height = static_cast<int>(size[1].value);
-    scene.settings.point =
-        runtime::choice_of<runtime::PixelPoint>(runtime::pixel_point_names, to_text(*render->get("sampling")));
+    scene.settings.point = runtime::choice_of<runtime::PixelPoint>(runtime::pixel_point_names,
+                                                                   to_text(*render->get("sampling")));
     if (const Thing* method = method_of(*render); method != nullptr) {
         scene.settings.depth = static_cast<int>(to_number(*method->get("depth")));
         scene.settings.shadows = to_bool(*method->get("shadows"));

@@ -634,8 +634,9 @@ std::vector<Field> sampling() {
              .type = TypeKind::string,
              .default_value = text("box"),
              .choices = choices(runtime::filter_names),
-             .doc = "how samples are weighted by their distance from the pixel's centre: all of the pixel's own "
-                    "alike, or those within 2 pixels (`mitchell`) or 1.5 along each axis"},
+             .doc =
+                 "how samples are weighted by their distance from the pixel's centre: all of the pixel's own "
+                 "alike, or those within 2 pixels (`mitchell`) or 1.5 along each axis"},
             {.name = "adaptive",
              .type = TypeKind::number,
              .limits = positive("a tolerance is greater than 0"),
@@ -645,19 +646,19 @@ std::vector<Field> sampling() {
 
 Constructor ray() {
     Constructor row{.name = "ray",
-            .type = TypeKind::method,
-            .fields = {{.name = "depth",
-                        .type = TypeKind::number,
-                        .default_value = number(5),
-                        .limits = {.min = 0,
-                                   .max = 200,
-                                   .integer = true,
-                                   .rule = "a depth is a whole number from 0 to 200"},
-                        .doc = "mirrors and refractions one after the other; 0: none"},
-                       {.name = "shadows",
-                        .type = TypeKind::boolean,
-                        .default_value = boolean(true),
-                        .doc = "shadow feelers"}}};
+                    .type = TypeKind::method,
+                    .fields = {{.name = "depth",
+                                .type = TypeKind::number,
+                                .default_value = number(5),
+                                .limits = {.min = 0,
+                                           .max = 200,
+                                           .integer = true,
+                                           .rule = "a depth is a whole number from 0 to 200"},
+                                .doc = "mirrors and refractions one after the other; 0: none"},
+                               {.name = "shadows",
+                                .type = TypeKind::boolean,
+                                .default_value = boolean(true),
+                                .doc = "shadow feelers"}}};
     const std::vector<Field> more = sampling();
     row.fields.insert(row.fields.begin() + 1, more.begin(), more.end());
     return row;

@@ -17,7 +17,8 @@ inline constexpr auto projection_names =
 /// window (see window_x and window_y) is
 ///   perspective:  org = eye,                                  dir = -n + half_height (x u + y v)
 ///   orthographic: org = eye + half_height (x u + y v),        dir = -n
-///   spherical:    org = eye,       dir = sin b v + cos b (sin a u - cos a n), a = half_width x, b = half_height y
+///   spherical:    org = eye,       dir = sin b v + cos b (sin a u - cos a n), a = half_width x, b =
+///   half_height y
 /// `dir` is not normalised for the perspective camera.
 template <class R>
 struct Camera {

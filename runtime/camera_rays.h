@@ -27,7 +27,8 @@ public:
     /// last, so that rounding does not depend on where a tile begins.
     template <class L>
     L window_x(const L& pixel, const L& within) const {
-        return runtime::window_x(scene_.camera, projection(), pixel + (within + L(shift_x_)), width_, height_);
+        return runtime::window_x(scene_.camera, projection(), pixel + (within + L(shift_x_)), width_,
+                                 height_);
     }
     template <class L>
     L window_y(const L& pixel, const L& within) const {

@@ -79,7 +79,8 @@ private:
     /// What is seen at a sample, and its weights in the pixels around its own.
     struct Seen {
         Rgb<R> color;
-        std::array<R, 2 * most_reach + 1> across, down; ///< by the other pixel's column and row from `reach_` on
+        std::array<R, 2 * most_reach + 1> across,
+            down; ///< by the other pixel's column and row from `reach_` on
     };
     struct SampledPixel {
         std::vector<Seen> samples;
@@ -227,10 +228,10 @@ private:
     int reach_; ///< see reach_of
     int n_;     ///< of the grid's n x n
     Candidates candidates_ = all_candidates;
-    int left_ = 0, columns_ = 0; ///< of the tile
-    std::vector<SampledPixel> sampled_;  ///< a row
-    std::vector<std::size_t> open_;      ///< pixels of the row that want more samples
-    std::vector<Sum> sums_;              ///< the tile
+    int left_ = 0, columns_ = 0;        ///< of the tile
+    std::vector<SampledPixel> sampled_; ///< a row
+    std::vector<std::size_t> open_;     ///< pixels of the row that want more samples
+    std::vector<Sum> sums_;             ///< the tile
 };
 
 } // namespace scc::runtime::detail

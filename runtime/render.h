@@ -34,8 +34,8 @@ public:
 
     Renderer(const S& scene, const RenderRequest& request, Image& image)
         : scene_(scene), request_(request), image_(image), camera_(scene, request.settings),
-          width_(request.crop.x1 - request.crop.x0),
-          height_(request.crop.y1 - request.crop.y0), tiles_across_((width_ + tile_size - 1) / tile_size),
+          width_(request.crop.x1 - request.crop.x0), height_(request.crop.y1 - request.crop.y0),
+          tiles_across_((width_ + tile_size - 1) / tile_size),
           tiles_(tiles_across_ * ((height_ + tile_size - 1) / tile_size)) {
         if (!is_searched_by_hierarchy()) {
             boxes_ = primitive_boxes(scene);
@@ -92,8 +92,7 @@ private:
             }
         }
         TilePainter painter(*this, shader, rays);
-        draw_tiles(rays, after_tile,
-                   [&](int x, int y) { painter.paint(x, y, candidates_in_tile(x, y, 0)); });
+        draw_tiles(rays, after_tile, [&](int x, int y) { painter.paint(x, y, candidates_in_tile(x, y, 0)); });
     }
     /// `paint(x, y)` draws the tile that begins there in the crop.
     template <class AfterTile, class Paint>
@@ -188,8 +187,7 @@ private:
             for (int lane = 0; lane < lane_count<L>; ++lane) {
                 const int sample = first + offset(lane);
                 set_lane(result.pixel, lane, static_cast<R>(pixel + sample / n_));
-                set_lane(result.within, lane,
-                         (static_cast<R>(sample % n_) + R(0.5)) / static_cast<R>(n_));
+                set_lane(result.within, lane, (static_cast<R>(sample % n_) + R(0.5)) / static_cast<R>(n_));
             }
             return result;
         }
@@ -310,7 +308,8 @@ private:
                               camera_.window_y(static_cast<R>(request_.crop.y0 + row), R(0)));
         };
         const int more = around + 1;
-        const int left = x - more, right = x + tile_size + more, top = y - more, bottom = y + tile_size + more;
+        const int left = x - more, right = x + tile_size + more, top = y - more,
+                  bottom = y + tile_size + more;
         return candidates_in(boxes_, ViewPart<R>({corner(left, top), corner(right, top),
                                                   corner(right, bottom), corner(left, bottom)}));
     }

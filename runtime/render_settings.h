@@ -8,10 +8,11 @@
 
 namespace scc::runtime {
 
-/// L11. Which point of a pixel is the middle of what it shows: its centre, or its lower left corner, as in the
-/// lecture's formula.
+/// L11. Which point of a pixel is the middle of what it shows: its centre, or its lower left corner, as in
+/// the lecture's formula.
 enum class PixelPoint { center, corner };
-/// Where a pixel's samples lie: at the centres of n x n sub-pixels, or at scrambled Sobol points (sampling.h).
+/// Where a pixel's samples lie: at the centres of n x n sub-pixels, or at scrambled Sobol points
+/// (sampling.h).
 enum class Sampler { grid, low_discrepancy };
 /// By what weights the samples around a pixel's centre become its value (sampling.h).
 enum class PixelFilter { box, mitchell, gaussian, blackman_harris };

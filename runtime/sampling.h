@@ -132,7 +132,8 @@ constexpr int reach_of(PixelFilter filter) {
 }
 
 /// The weight along one axis of a sample so many pixels from a pixel's centre, up to a factor:
-///   mitchell:        B = C = 1/3 in D. Mitchell and A. Netravali, Reconstruction Filters in Computer Graphics
+///   mitchell:        B = C = 1/3 in D. Mitchell and A. Netravali, Reconstruction Filters in Computer
+///   Graphics
 ///                    (1988), two pixels wide to either side
 ///   gaussian:        of standard deviation 1/2, less what it is at the radius 1.5, as in pbrt (Pharr, Jakob,
 ///                    Humphreys, Physically Based Rendering, 4th edition, 8.8.3)

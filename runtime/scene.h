@@ -49,17 +49,17 @@ struct SceneTraits {
     bool perspective = false;
     bool orthographic = false;
     bool spherical = false;
-    bool lens = false;           ///< the camera has one, and is no pinhole
-    bool pixel_sampling = false; ///< samples in other places than a grid's, other weights than a box's, or adaptive
+    bool lens = false; ///< the camera has one, and is no pinhole
+    bool pixel_sampling =
+        false;            ///< samples in other places than a grid's, other weights than a box's, or adaptive
     bool spectra = false; ///< drawn three wavelengths at a time (bands.h), which the kernels do not notice
 
     friend constexpr bool operator==(const SceneTraits&, const SceneTraits&) = default;
 };
 
-inline constexpr SceneTraits everything{~0U,  ~0U,  ~0U,  ~0U,  true, true, true, true,
-                                        true, true, true, true, true, true, true, true,
-                                        true, true, true, true, true, true, true, true,
-                                        true, true, true};
+inline constexpr SceneTraits everything{~0U,  ~0U,  ~0U,  ~0U,  true, true, true, true, true,
+                                        true, true, true, true, true, true, true, true, true,
+                                        true, true, true, true, true, true, true, true, true};
 
 /// What every shape in a scene carries.
 struct Tag {

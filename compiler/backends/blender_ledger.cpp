@@ -272,7 +272,8 @@ private:
             scene_.camera_span);
         if (camera.lens_radius > 0) {
             add({Fidelity::approximated,
-                 "Cycles' depth of field, 64 random points of the lens per pixel (`--samples`); bound: standard "
+                 "Cycles' depth of field, 64 random points of the lens per pixel (`--samples`); bound: "
+                 "standard "
                  "error of the mean over the range of what they see",
                  1 / (2 * std::sqrt(64.0))},
                 "aperture", "camera", scene_.camera_span);

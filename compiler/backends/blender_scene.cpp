@@ -66,7 +66,8 @@ private:
             more += fmt::format(", half_width={}", python(camera.half_width));
         }
         if (has("lens")) {
-            more += fmt::format(", lens_radius={}, focus={}", python(camera.lens_radius), python(camera.focus));
+            more +=
+                fmt::format(", lens_radius={}, focus={}", python(camera.lens_radius), python(camera.focus));
         }
         out_.line("              half_height={}, shift=({}, {}){})", python(camera.half_height),
                   python(camera.shift_x), python(camera.shift_y), more);

@@ -581,7 +581,8 @@ void Emitter<R>::program() {
     if (in_code_) {
         const runtime::RenderSettings& s = scene_.settings;
         facts = fmt::format(
-            ", .scene = {}, .settings = {{{}, {}, {}, {}, {}, PixelPoint::{}, Sampler::{}, PixelFilter::{}, {}}}{}",
+            ", .scene = {}, .settings = {{{}, {}, {}, {}, {}, PixelPoint::{}, Sampler::{}, PixelFilter::{}, "
+            "{}}}{}",
             quote(Language::cpp, scene_.name), s.width, s.height, s.samples, s.depth, literal(s.shadows),
             word(runtime::pixel_point_names, s.point), word(runtime::sampler_names, s.sampler),
             word(runtime::filter_names, s.filter), literal(s.adaptive),

@@ -16,7 +16,8 @@ void record_sampling(const ir::Scene& scene, Ledger& ledger) {
     };
     if (settings.sampler == runtime::Sampler::low_discrepancy) {
         add(Fidelity::approximated, "sampler",
-            "on a grid of about as many samples; bound: standard error of a mean over the range of what is seen "
+            "on a grid of about as many samples; bound: standard error of a mean over the range of what is "
+            "seen "
             "in a pixel, of samples that know nothing of each other",
             1 / (2 * std::sqrt(settings.samples)));
     }

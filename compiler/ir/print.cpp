@@ -198,8 +198,9 @@ std::string print(const Scene& scene) {
     out.line("picture {} x {}, {} samples, depth {}, shadows {}", s.width, s.height, s.samples, s.depth,
              text(s.shadows));
     if (s.point != runtime::PixelPoint::center || !is_plain_grid(s)) {
-        out.line("pixels at {}, sampler {}, filter {}, adaptive {}", word(runtime::pixel_point_names, s.point),
-                 word(runtime::sampler_names, s.sampler), word(runtime::filter_names, s.filter), s.adaptive);
+        out.line("pixels at {}, sampler {}, filter {}, adaptive {}",
+                 word(runtime::pixel_point_names, s.point), word(runtime::sampler_names, s.sampler),
+                 word(runtime::filter_names, s.filter), s.adaptive);
     }
     const runtime::Camera<double>& c = scene.camera;
     out.line("camera {} eye = {}, u = {}, v = {}, n = {}, half_height = {}, shift = ({}, {})",

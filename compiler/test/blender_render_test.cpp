@@ -105,7 +105,8 @@ box { min = (-3, 0, 1), max = (-2, 2, 2) }
 
 TEST_F(BlenderRender, PanoramasAndTheCornersOfPixelsAgree) {
     ir::Scene scene = scene_of(
-        things_around + "spherical_camera { eye = (0, 1.5, 1), target = (1, 1.2, -1), up = (0.1, 1, 0), fov_x = 300deg }");
+        things_around +
+        "spherical_camera { eye = (0, 1.5, 1), target = (1, 1.2, -1), up = (0.1, 1, 0), fov_x = 300deg }");
     EXPECT_LE(differing_pixels(scene), 2);
     scene.settings.point = runtime::PixelPoint::corner;
     EXPECT_LE(differing_pixels(scene), 2);
@@ -115,8 +116,9 @@ TEST_F(BlenderRender, PanoramasAndTheCornersOfPixelsAgree) {
 }
 
 TEST_F(BlenderRender, LensesConvergeToTheSamePicture) {
-    ir::Scene scene = scene_of(
-        things_around + "perspective_camera { eye = (0, 2, 6), target = (0, 0.7, 0), aperture = 0.5, focus = 5 }");
+    ir::Scene scene =
+        scene_of(things_around +
+                 "perspective_camera { eye = (0, 2, 6), target = (0, 0.7, 0), aperture = 0.5, focus = 5 }");
     scene.settings.samples = 1024;
     scene.settings.sampler = runtime::Sampler::low_discrepancy;
     Image ours(64, 48);

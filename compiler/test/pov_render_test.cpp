@@ -102,14 +102,15 @@ TEST_F(PovRender, PanoramasAndTheCornersOfPixelsAgree) {
                                "rgb(0.8, 0.2, 0.1), reflect = rgb(0.3, 0.3, 0.3) } }\n"
                                "box { min = (-3, 0, 1), max = (-2, 2, 2) }\n";
     const std::string corners = "render { sampling = \"corner\" }\n";
-    expect_same_picture(things + "spherical_camera { eye = (0, 1.5, 1), target = (1, 1.2, -1), up = (0.1, 1, 0) }");
+    expect_same_picture(things +
+                        "spherical_camera { eye = (0, 1.5, 1), target = (1, 1.2, -1), up = (0.1, 1, 0) }");
     expect_same_picture(things + "spherical_camera { eye = (0, 1.5, 1), fov_x = 120deg, fov_y = 70deg }");
     expect_same_picture(things + camera + corners);
     expect_same_picture(things + "orthographic_camera { eye = (1, 3, 5), height = 5 }\n" + corners);
 }
 
-/// POV-Ray draws what each of a few points of the lens sees by a pinhole camera, its window shifted so that the
-/// plane in focus stays in place; their mean comes near to the lens.
+/// POV-Ray draws what each of a few points of the lens sees by a pinhole camera, its window shifted so that
+/// the plane in focus stays in place; their mean comes near to the lens.
 TEST_F(PovRender, LensesAreTheMeanOfItsPinholes) {
     constexpr int pinholes = 16;
     ir::Scene scene = scene_of(room + lamp + R"(
@@ -130,8 +131,8 @@ sphere { center = (1, 1, -4), material = phong { diffuse = rgb(0.2, 0.3, 0.8) } 
     std::vector<double> mean(lens.pixels.size());
     for (int i = 0; i < pinholes; ++i) {
         const runtime::SquarePoint point = runtime::SobolPoints({7, 3}, runtime::PointUse::lens)[i];
-        const runtime::Vec2<double> at = runtime::in_disc(runtime::part_of_unit<double>(point.x),
-                                                          runtime::part_of_unit<double>(point.y));
+        const runtime::Vec2<double> at =
+            runtime::in_disc(runtime::part_of_unit<double>(point.x), runtime::part_of_unit<double>(point.y));
         runtime::Camera<double>& c = scene.camera = camera_with_lens;
         c.lens_radius = 0;
         c.eye = c.eye + camera_with_lens.lens_radius * (at.x * c.u + at.y * c.v);

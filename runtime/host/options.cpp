@@ -107,8 +107,8 @@ constexpr auto rows = std::to_array<OptionRow>({
      true, [](RenderOptions& options, const std::string& text) { options.output = text; }},
     {"--size", nullptr, "WxH", "size in pixels", true, false, set_size},
     {"--samples", nullptr, "N", "samples per pixel; of a grid a square number", true, false, set_samples},
-    {"--filter", nullptr, "NAME", "weights of samples: box, mitchell, gaussian or blackman_harris", false, false,
-     set_filter},
+    {"--filter", nullptr, "NAME", "weights of samples: box, mitchell, gaussian or blackman_harris", false,
+     false, set_filter},
     {"--threads", nullptr, "N", "threads; default: one per core", true, false, set_threads},
     {"--crop", nullptr, "X0,Y0,X1,Y1", "draw only these pixels, rows from the top, ends excluded", false,
      false, set_crop},
@@ -301,9 +301,10 @@ runtime::RenderRequest make_request(const RenderOptions& options, const runtime:
     request.settings.samples = options.samples.value_or(scene.samples);
     request.settings.filter = options.filter.value_or(scene.filter);
     if (!runtime::fits_sampler(request.settings)) {
-        throw UsageError("--samples: " + std::to_string(request.settings.samples) +
-                         " samples make no grid; their number is a square (1, 4, 9, 16, ...) unless the scene "
-                         "has `sampler = \"low_discrepancy\"`");
+        throw UsageError(
+            "--samples: " + std::to_string(request.settings.samples) +
+            " samples make no grid; their number is a square (1, 4, 9, 16, ...) unless the scene "
+            "has `sampler = \"low_discrepancy\"`");
     }
     request.threads = thread_count(options);
     request.crop =

@@ -103,9 +103,11 @@ std::string purpose_of(const Opened& opened) {
 }
 
 void check_filter(const Program& program, const RenderOptions& options) {
-    if (!program.has_filters && options.filter.value_or(runtime::PixelFilter::box) != runtime::PixelFilter::box) {
-        throw UsageError("--filter: this program has the box alone, since its scene takes the mean of a grid; "
-                         "`filter` in the scene's `ray { }` brings the others");
+    if (!program.has_filters &&
+        options.filter.value_or(runtime::PixelFilter::box) != runtime::PixelFilter::box) {
+        throw UsageError(
+            "--filter: this program has the box alone, since its scene takes the mean of a grid; "
+            "`filter` in the scene's `ray { }` brings the others");
     }
 }
 

@@ -278,8 +278,8 @@ TYPED_TEST(Rendering, FreeSamplesDependOnNeitherTilesNorCropsNorThreadsNorLanes)
     Crowd<TypeParam> crowd(3);
     crowd.scene.camera.lens_radius = TypeParam(0.3);
     crowd.scene.camera.focus = 11;
-    for (RenderRequest wanted : {free_request(PixelFilter::mitchell, 5),
-                                 free_request(PixelFilter::blackman_harris, 40, 0.02)}) {
+    for (RenderRequest wanted :
+         {free_request(PixelFilter::mitchell, 5), free_request(PixelFilter::blackman_harris, 40, 0.02)}) {
         const Image whole = draw(crowd.scene, wanted);
         EXPECT_TRUE(is_varied(whole));
         Image one_by_one(67, 41);
@@ -325,8 +325,8 @@ TEST(Render, FiltersKeepASteadyPictureAndAreSymmetric) {
     empty.background = {0.25, 0.5, 1};
     prepare(empty);
     RenderRequest small = request(5, 4);
-    for (const PixelFilter filter : {PixelFilter::box, PixelFilter::mitchell, PixelFilter::gaussian,
-                                     PixelFilter::blackman_harris}) {
+    for (const PixelFilter filter :
+         {PixelFilter::box, PixelFilter::mitchell, PixelFilter::gaussian, PixelFilter::blackman_harris}) {
         small.settings.filter = filter;
         small.settings.samples = 4;
         for (const Image image = draw(empty, small); const std::size_t i : {0U, 3U, 57U}) {
@@ -372,8 +372,8 @@ TEST(Render, CornersAreThePixelsOfALargerPicture) {
     EXPECT_LE(differing, 3);
 }
 
-/// A lens spreads a point at the distance d over a disc: on the plane in focus, at the distance f, its diameter
-/// is A |d - f| / d.
+/// A lens spreads a point at the distance d over a disc: on the plane in focus, at the distance f, its
+/// diameter is A |d - f| / d.
 TEST(Render, BlurCirclesHaveTheDiameterOfTheThinLens) {
     constexpr int side = 100;
     constexpr double radius = 0.02, aperture = 0.4, half_height = 0.25;

@@ -25,8 +25,8 @@ protected:
 };
 
 // Blender has no unbounded quadrics, and no exact normals on tori that are parts of solids; spectra take it
-// 27 pictures, which is too long here. Glass is not written for it. Lenses and filters are for no comparison of
-// single samples, and a zone plate asks for more digits than float has.
+// 27 pictures, which is too long here. Glass is not written for it. Lenses and filters are for no comparison
+// of single samples, and a zone plate asks for more digits than float has.
 INSTANTIATE_TEST_SUITE_P(
     All, Examples,
     testing::Values(Example{"lecture", "pov,blender,native"}, Example{"mesh", "pov,blender,native"},
@@ -75,20 +75,19 @@ TEST_P(Examples, AreExportedWholeOrNotAtAll) {
     EXPECT_EQ(scc({"export", "pov", scene(), "-o", "s.pov"}).code, GetParam().whole_for_pov ? 0 : 1);
 }
 
-/// Where a zone plate's rings are finer than two pixels, the right answer is their mean: what differs from it is
-/// at false frequencies. The figures stand in the README.
+/// Where a zone plate's rings are finer than two pixels, the right answer is their mean: what differs from it
+/// is at false frequencies. The figures stand in the README.
 TEST_F(CommandLine, ZonePlatesShowWhatSamplersAndFiltersLeaveOfFalseRings) {
     struct Row {
         const char *samples, *sampler, *filter;
         double deviation; ///< from the mean, root mean square
     };
-    for (const Row& row : {Row{"1", "grid", "box", 0.354}, Row{"16", "grid", "box", 0.0733},
-                           Row{"16", "low_discrepancy", "box", 0.0740}, Row{"16", "grid", "mitchell", 0.0188},
-                           Row{"16", "low_discrepancy", "mitchell", 0.0294},
-                           Row{"16", "grid", "gaussian", 0.0146},
-                           Row{"16", "low_discrepancy", "gaussian", 0.0240},
-                           Row{"16", "grid", "blackman_harris", 0.0258},
-                           Row{"16", "low_discrepancy", "blackman_harris", 0.0341}}) {
+    for (const Row& row :
+         {Row{"1", "grid", "box", 0.354}, Row{"16", "grid", "box", 0.0733},
+          Row{"16", "low_discrepancy", "box", 0.0740}, Row{"16", "grid", "mitchell", 0.0188},
+          Row{"16", "low_discrepancy", "mitchell", 0.0294}, Row{"16", "grid", "gaussian", 0.0146},
+          Row{"16", "low_discrepancy", "gaussian", 0.0240}, Row{"16", "grid", "blackman_harris", 0.0258},
+          Row{"16", "low_discrepancy", "blackman_harris", 0.0341}}) {
         ASSERT_TRUE(scc({"render", example("zone_plate.scn"), "-o", "plate.pfm", "-D",
                          std::string("samples=") + row.samples, "-D", std::string("sampler=") + row.sampler,
                          "--filter", row.filter})
