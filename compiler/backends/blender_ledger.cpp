@@ -8,6 +8,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -279,8 +281,10 @@ private:
                 "aperture", "camera", scene_.camera_span);
         }
         if (scene_.settings.point == runtime::PixelPoint::corner) {
-            add({Fidelity::exact, "the window is shifted by half a pixel"}, "sampling", "render",
-                scene_.sampling_span);
+            add(fits_after_shift()
+                    ? Account{Fidelity::exact, "the window is shifted by half a pixel"}
+                    : Account{Fidelity::dropped, "Cycles' panoramas end at the poles and behind"},
+                "sampling", "render", scene_.sampling_span);
         }
         if (needs_.extent < smallest_scene) {
             add({Fidelity::dropped, "Blender's camera sees nothing nearer than 1e-6"}, "scale", "scene",
@@ -293,6 +297,16 @@ private:
                  6e-8 * distance / needs_.extent},
                 "position", "scene", scene_.camera_span);
         }
+    }
+
+    /// Whether what a panorama shows lies within a turn and between the poles when it is half a pixel off.
+    bool fits_after_shift() const {
+        const runtime::Camera<double>& camera = scene_.camera;
+        const runtime::RenderSettings& settings = scene_.settings;
+        const double n = samples_per_axis(settings);
+        return camera.projection != runtime::Projection::spherical ||
+               (camera.half_width * (1 + n / settings.width) <= std::numbers::pi &&
+                camera.half_height * (1 + n / settings.height) <= std::numbers::pi / 2);
     }
 
     void record_settings() {

@@ -104,9 +104,8 @@ box { min = (-3, 0, 1), max = (-2, 2, 2) }
 )";
 
 TEST_F(BlenderRender, PanoramasAndTheCornersOfPixelsAgree) {
-    ir::Scene scene = scene_of(
-        things_around +
-        "spherical_camera { eye = (0, 1.5, 1), target = (1, 1.2, -1), up = (0.1, 1, 0), fov_x = 300deg }");
+    ir::Scene scene = scene_of(things_around + "spherical_camera { eye = (0, 1.5, 1), target = (1, 1.2, -1), "
+                                               "up = (0.1, 1, 0), fov_x = 300deg, fov_y = 170deg }");
     EXPECT_LE(differing_pixels(scene), 2);
     scene.settings.point = runtime::PixelPoint::corner;
     EXPECT_LE(differing_pixels(scene), 2);
