@@ -132,6 +132,19 @@ void frame_everything(ir::Scene& scene, lang::Diagnostics& diagnostics) {
             camera.eye.x, camera.eye.y, camera.eye.z, center.x, center.y, center.z));
 }
 
+void lower_window(const Thing& camera, ir::Scene& scene, lang::Diagnostics& diagnostics) {
+    scene.near = to_number(*camera.get("near"));
+    scene.far = to_number(*camera.get("far"));
+    if (scene.near >= scene.far) {
+        diagnostics.report(
+            Diag::impossible_camera, place_of(camera, "near"),
+            fmt::format("near is {} and far is {}; near is less than far", scene.near, scene.far));
+    }
+    const auto& shift = std::get<lang::Vec2Value>(camera.get("shift")->v).v;
+    scene.camera.shift_x = shift[0].value;
+    scene.camera.shift_y = shift[1].value;
+}
+
 // ---- lights --------------------------------------------------------------------------------------------
 
 ir::LightColors colors_of(const Thing& light, const Rendition& by) {
@@ -223,6 +236,31 @@ std::string unique_light_name(const Thing& thing, std::set<std::string>& taken) 
     return name;
 }
 
+void lower_sampling(const Thing& ray, runtime::RenderSettings& settings, lang::Diagnostics& diagnostics) {
+    settings.samples = static_cast<int>(to_number(*ray.get("samples")));
+    settings.filter =
+        runtime::choice_of<runtime::PixelFilter>(runtime::filter_names, to_text(*ray.get("filter")));
+    if (const lang::Value* adaptive = ray.get("adaptive"); adaptive != nullptr) {
+        settings.adaptive = to_number(*adaptive);
+        settings.sampler = runtime::Sampler::low_discrepancy;
+    }
+    if (const lang::Value* sampler = ray.get("sampler"); sampler != nullptr) {
+        settings.sampler = runtime::choice_of<runtime::Sampler>(runtime::sampler_names, to_text(*sampler));
+    }
+    if (settings.adaptive > 0 && settings.sampler == runtime::Sampler::grid) {
+        const lang::Span place = place_of(ray, "sampler");
+        diagnostics
+            .report(Diag::impossible_sampling, place,
+                    "`adaptive` stops between the samples of a pixel, which a grid has only as a whole")
+            .suggest(place, "\"low_discrepancy\"");
+    } else if (!fits_sampler(settings)) {
+        diagnostics.report(Diag::impossible_sampling, place_of(ray, "samples"),
+                           fmt::format("{} samples make no grid; their number is a square (1, 4, 9, 16, ...) "
+                                       "unless `sampler` is \"low_discrepancy\"",
+                                       settings.samples));
+    }
+}
+
 } // namespace
 
 void lower_settings(const lang::Module& module, const Rendition& rec709, ir::Scene& scene,
@@ -241,15 +279,13 @@ void lower_settings(const lang::Module& module, const Rendition& rec709, ir::Sce
     const auto& size = std::get<lang::Vec2Value>(render->get("size")->v).v;
     scene.settings.width = static_cast<int>(size[0].value);
     scene.settings.height = static_cast<int>(size[1].value);
-    if (to_text(*render->get("sampling")) == "corner") {
-        diagnostics.report(Diag::unsupported_setting, place_of(*render, "sampling"),
-                           "sampling at the pixel's corner");
-    }
+    scene.settings.point = runtime::choice_of<runtime::PixelPoint>(runtime::pixel_point_names,
+                                                                   to_text(*render->get("sampling")));
     if (const Thing* method = method_of(*render); method != nullptr) {
         scene.settings.depth = static_cast<int>(to_number(*method->get("depth")));
-        scene.settings.samples_per_axis =
-            static_cast<int>(std::lround(std::sqrt(to_number(*method->get("samples")))));
         scene.settings.shadows = to_bool(*method->get("shadows"));
+        scene.sampling_span = method->span;
+        lower_sampling(*method, scene.settings, diagnostics);
     }
 }
 
@@ -263,24 +299,25 @@ void lower_camera(const lang::Module& module, const LowerOptions& options, ir::S
     scene.camera_span = thing->span;
     runtime::Camera<double>& camera = scene.camera;
     camera.eye = to_vec3(*thing->get("eye"));
-    if (!orient(camera, to_vec3(*thing->get("target")), to_vec3(*thing->get("up")))) {
+    const Vec3<double> target = to_vec3(*thing->get("target"));
+    if (!orient(camera, target, to_vec3(*thing->get("up")))) {
         diagnostics.report(Diag::impossible_camera, thing->span,
                            "the camera's frame does not exist: `target` lies at `eye`, or `up` is parallel "
                            "to the line of sight");
     }
-    scene.near = to_number(*thing->get("near"));
-    scene.far = to_number(*thing->get("far"));
-    if (scene.near >= scene.far) {
-        diagnostics.report(
-            Diag::impossible_camera, place_of(*thing, "near"),
-            fmt::format("near is {} and far is {}; near is less than far", scene.near, scene.far));
+    if (thing->constructor->name == "spherical_camera") {
+        camera.projection = runtime::Projection::spherical;
+        camera.half_width = to_radians(*thing->get("fov_x")) / 2;
+        camera.half_height = to_radians(*thing->get("fov_y")) / 2;
+        return;
     }
-    const auto& shift = std::get<lang::Vec2Value>(thing->get("shift")->v).v;
-    camera.shift_x = shift[0].value;
-    camera.shift_y = shift[1].value;
+    lower_window(*thing, scene, diagnostics);
     if (thing->constructor->name == "perspective_camera") {
         camera.projection = runtime::Projection::perspective;
         camera.half_height = std::tan(to_radians(*thing->get("fov_y")) / 2);
+        camera.lens_radius = to_number(*thing->get("aperture")) / 2;
+        const lang::Value* focus = thing->get("focus");
+        camera.focus = focus != nullptr ? to_number(*focus) : length(target - camera.eye);
     } else {
         camera.projection = runtime::Projection::orthographic;
         camera.half_height = to_number(*thing->get("height")) / 2;

@@ -286,6 +286,7 @@ const std::map<std::string_view, std::string_view>& examples() {
         {"directional_light", "directional_light { direction = (-1, -2, -1), color = rgb(0.3, 0.3, 0.35) }"},
         {"perspective_camera", "perspective_camera { eye = (4, 3, 6), target = (0, 0.5, 0), fov_y = 40deg }"},
         {"orthographic_camera", "orthographic_camera { eye = (3, 2.5, 4), height = 3 }"},
+        {"spherical_camera", "spherical_camera { eye = (0, 1.6, 0), target = (0, 1.6, -1) }"},
         {"world", "world { ambient = rgb(0.2, 0.2, 0.2), background = #202830, unit = \"cm\" }"},
         {"render", "render { file = \"ray.png\", size = (640, 480), method = ray { depth = 4 } }"},
         {"ray", "render { method = ray { depth = 4, samples = 16, shadows = false } }"},

@@ -2,6 +2,7 @@
 
 #include "lang/spectrum.h"
 #include "runtime/field.h"
+#include "runtime/render_settings.h"
 #include "runtime/shapes/list.h"
 
 #include <array>
@@ -44,6 +45,11 @@ Value vec3(double x, double y, double z) {
 }
 Value grey(double v) {
     return {lang::ColorValue{{{{v}, {v}, {v}}}}};
+}
+
+template <std::size_t n>
+std::vector<std::string_view> choices(const std::array<std::string_view, n>& names) {
+    return {names.begin(), names.end()};
 }
 
 Limits positive(std::string_view rule) {
@@ -468,7 +474,7 @@ Constructor directional_light() {
     return row;
 }
 
-void add_camera_fields(Constructor& row) {
+void add_viewpoint(Constructor& row) {
     row.fields.push_back(
         {.name = "eye", .type = TypeKind::vec3, .default_value = vec3(0, 0, 5), .doc = "place"});
     row.fields.push_back(
@@ -478,6 +484,9 @@ void add_camera_fields(Constructor& row) {
                           .default_value = vec3(0, 1, 0),
                           .limits = limits_of(runtime::Rule::nonzero_vector),
                           .doc = "drawn upwards"});
+}
+
+void add_window(Constructor& row) {
     row.fields.push_back({.name = "near",
                           .type = TypeKind::number,
                           .default_value = number(0.1),
@@ -502,9 +511,18 @@ Constructor perspective_camera() {
          .default_value = angle_degrees(45),
          .limits = {.min = 0, .max = pi, .min_excluded = true, .rule = "it lies between 0 and 180deg"},
          .doc = "angle between the picture's lower and upper edge"});
-    add_camera_fields(row);
-    row.fields.push_back(unsupported("aperture", TypeKind::number));
-    row.fields.push_back(unsupported("focus", TypeKind::number));
+    add_viewpoint(row);
+    add_window(row);
+    row.fields.push_back({.name = "aperture",
+                          .type = TypeKind::number,
+                          .default_value = number(0),
+                          .limits = non_negative,
+                          .doc = "diameter of the lens; 0: a pinhole, which shows everything sharp"});
+    row.fields.push_back({.name = "focus",
+                          .type = TypeKind::number,
+                          .limits = positive("a distance in focus is greater than 0"),
+                          .doc = "along the view axis, to the plane that the lens shows sharp; else that of "
+                                 "`target`"});
     return row;
 }
 
@@ -515,7 +533,30 @@ Constructor orthographic_camera() {
                           .default_value = number(2),
                           .limits = positive("a height is greater than 0"),
                           .doc = "full height of the window"});
-    add_camera_fields(row);
+    add_viewpoint(row);
+    add_window(row);
+    return row;
+}
+
+Constructor spherical_camera() {
+    Constructor row{.name = "spherical_camera", .type = TypeKind::camera};
+    add_viewpoint(row);
+    row.fields.push_back({.name = "fov_x",
+                          .type = TypeKind::angle,
+                          .default_value = angle_degrees(360),
+                          .limits = {.min = 0,
+                                     .max = 2 * pi,
+                                     .min_excluded = true,
+                                     .rule = "it is greater than 0 and at most 360deg"},
+                          .doc = "longitudes that the picture's width shows"});
+    row.fields.push_back({.name = "fov_y",
+                          .type = TypeKind::angle,
+                          .default_value = angle_degrees(180),
+                          .limits = {.min = 0,
+                                     .max = pi,
+                                     .min_excluded = true,
+                                     .rule = "it is greater than 0 and at most 180deg"},
+                          .doc = "latitudes that its height shows"});
     return row;
 }
 
@@ -569,44 +610,58 @@ Constructor render() {
                    {.name = "sampling",
                     .type = TypeKind::string,
                     .default_value = text("center"),
-                    .choices = {"center", "corner"},
-                    .doc = "which point of a pixel is sampled"}}};
+                    .choices = choices(runtime::pixel_point_names),
+                    .doc = "the point of a pixel around which it is sampled: its centre, or its lower left "
+                           "corner as in the lecture's formula"}}};
 }
 
-Field samples() {
-    return {.name = "samples",
-            .type = TypeKind::number,
-            .default_value = number(1),
-            .limits = {.min = 1,
-                       .max = 4096,
-                       .integer = true,
-                       .square = true,
-                       .rule = "samples per pixel are a square number from 1 to 4096"},
-            .doc = "per pixel, on a regular grid"};
+Limits samples_of(bool square, std::string_view rule) {
+    return {.min = 1, .max = runtime::most_samples, .integer = true, .square = square, .rule = rule};
+}
+
+std::vector<Field> sampling() {
+    return {{.name = "samples",
+             .type = TypeKind::number,
+             .default_value = number(1),
+             .limits = samples_of(false, "samples per pixel are a whole number from 1 to 4096"),
+             .doc = "per pixel, of a grid a square number; with `adaptive` at most"},
+            {.name = "sampler",
+             .type = TypeKind::string,
+             .choices = choices(runtime::sampler_names),
+             .doc = "where a pixel's samples lie: at the centres of n x n parts of it (the default), or "
+                    "scattered evenly, at scrambled Sobol points (the default with `adaptive`)"},
+            {.name = "filter",
+             .type = TypeKind::string,
+             .default_value = text("box"),
+             .choices = choices(runtime::filter_names),
+             .doc =
+                 "how samples are weighted by their distance from the pixel's centre: all of the pixel's own "
+                 "alike, or those within 2 pixels (`mitchell`) or 1.5 along each axis"},
+            {.name = "adaptive",
+             .type = TypeKind::number,
+             .limits = positive("a tolerance is greater than 0"),
+             .doc = "a pixel gets samples, 16 at a time, until the standard error of their mean is no more "
+                    "than this in any channel (linear light)"}};
 }
 
 Constructor ray() {
-    return {.name = "ray",
-            .type = TypeKind::method,
-            .fields = {{.name = "depth",
-                        .type = TypeKind::number,
-                        .default_value = number(5),
-                        .limits = {.min = 0,
-                                   .max = 200,
-                                   .integer = true,
-                                   .rule = "a depth is a whole number from 0 to 200"},
-                        .doc = "mirrors and refractions one after the other; 0: none"},
-                       samples(),
-                       {.name = "shadows",
-                        .type = TypeKind::boolean,
-                        .default_value = boolean(true),
-                        .doc = "shadow feelers"},
-                       {.name = "filter",
-                        .type = TypeKind::string,
-                        .default_value = text("box"),
-                        .choices = {"box"},
-                        .doc = "how the samples of a pixel are weighted"},
-                       unsupported("adaptive", TypeKind::number)}};
+    Constructor row{.name = "ray",
+                    .type = TypeKind::method,
+                    .fields = {{.name = "depth",
+                                .type = TypeKind::number,
+                                .default_value = number(5),
+                                .limits = {.min = 0,
+                                           .max = 200,
+                                           .integer = true,
+                                           .rule = "a depth is a whole number from 0 to 200"},
+                                .doc = "mirrors and refractions one after the other; 0: none"},
+                               {.name = "shadows",
+                                .type = TypeKind::boolean,
+                                .default_value = boolean(true),
+                                .doc = "shadow feelers"}}};
+    const std::vector<Field> more = sampling();
+    row.fields.insert(row.fields.begin() + 1, more.begin(), more.end());
+    return row;
 }
 
 Constructor raster() {
@@ -617,7 +672,11 @@ Constructor raster() {
                         .default_value = text("phong"),
                         .choices = {"flat", "gouraud", "phong", "wireframe", "hidden_line"},
                         .doc = "where colours are computed"},
-                       samples(),
+                       {.name = "samples",
+                        .type = TypeKind::number,
+                        .default_value = number(1),
+                        .limits = samples_of(true, "samples per pixel are a square number from 1 to 4096"),
+                        .doc = "per pixel, on a regular grid"},
                        {.name = "clip",
                         .type = TypeKind::boolean,
                         .default_value = boolean(true),
@@ -637,7 +696,6 @@ Constructor raster() {
 // The language's other words: known, so that a scene that uses one is told the truth.
 void add_unsupported(std::vector<Constructor>& rows) {
     const std::pair<std::string_view, TypeKind> words[] = {
-        {"spherical_camera", TypeKind::camera},
         {"sky_light", TypeKind::light},
         {"pbr", TypeKind::material},
     };
@@ -665,6 +723,7 @@ constexpr std::pair<std::string_view, std::string_view> docs[] = {
     {"directional_light", "shines from one direction everywhere, as the sun does"},
     {"perspective_camera", "central projection"},
     {"orthographic_camera", "parallel projection"},
+    {"spherical_camera", "a panorama: columns are longitudes around the `up` axis, rows are latitudes"},
     {"world", "what surrounds the scene"},
     {"render", "a picture of the scene"},
     {"ray", "a picture by casting rays"},
@@ -700,6 +759,7 @@ lang::Schema make_schema() {
                       rectangle_light,
                       perspective_camera,
                       orthographic_camera,
+                      spherical_camera,
                       world,
                       render,
                       ray,

@@ -2,6 +2,8 @@
 
 #include "runtime/accel/build.h"
 #include "runtime/accel/view.h"
+#include "runtime/camera_rays.h"
+#include "runtime/free_painter.h"
 #include "runtime/image.h"
 #include "runtime/math/pack.h"
 #include "runtime/shade.h"
@@ -31,8 +33,9 @@ public:
     using R = typename S::Real;
 
     Renderer(const S& scene, const RenderRequest& request, Image& image)
-        : scene_(scene), request_(request), image_(image), width_(request.crop.x1 - request.crop.x0),
-          height_(request.crop.y1 - request.crop.y0), tiles_across_((width_ + tile_size - 1) / tile_size),
+        : scene_(scene), request_(request), image_(image), camera_(scene, request.settings),
+          width_(request.crop.x1 - request.crop.x0), height_(request.crop.y1 - request.crop.y0),
+          tiles_across_((width_ + tile_size - 1) / tile_size),
           tiles_(tiles_across_ * ((height_ + tile_size - 1) / tile_size)) {
         if (!is_searched_by_hierarchy()) {
             boxes_ = primitive_boxes(scene);
@@ -77,7 +80,23 @@ private:
 
     template <class AfterTile>
     void draw_tiles(RayCounts& rays, AfterTile&& after_tile) {
-        TilePainter painter(*this, rays);
+        Shader<S, L> shader(scene_, request_.settings, rays);
+        if constexpr (S::traits.pixel_sampling) {
+            if (!is_plain_grid(request_.settings)) {
+                const int around = reach_of(request_.settings.filter);
+                FreePainter<S, L> painter(camera_, shader, request_, image_, rays);
+                draw_tiles(rays, after_tile, [&](int x, int y) {
+                    painter.paint(x, y, tile_size, candidates_in_tile(x, y, around));
+                });
+                return;
+            }
+        }
+        TilePainter painter(*this, shader, rays);
+        draw_tiles(rays, after_tile, [&](int x, int y) { painter.paint(x, y, candidates_in_tile(x, y, 0)); });
+    }
+    /// `paint(x, y)` draws the tile that begins there in the crop.
+    template <class AfterTile, class Paint>
+    void draw_tiles(RayCounts& rays, AfterTile&& after_tile, Paint&& paint) {
         [[maybe_unused]] FieldCounts before;
         if constexpr (uses_implicit<S>) {
             before = field_counts;
@@ -87,7 +106,7 @@ private:
             if (tile >= tiles_) {
                 break;
             }
-            painter.paint(tile % tiles_across_ * tile_size, tile / tiles_across_ * tile_size);
+            paint(tile % tiles_across_ * tile_size, tile / tiles_across_ * tile_size);
             ++done_;
             after_tile();
         }
@@ -102,9 +121,9 @@ private:
     /// a pixel these run more alike, but n x n blocks have as many samples as a block of pixels has.
     class TilePainter {
     public:
-        TilePainter(const Renderer& renderer, RayCounts& rays)
-            : renderer_(renderer), shader_(renderer.scene_, renderer.request_.settings, rays), rays_(rays),
-              n_(renderer.request_.settings.samples_per_axis),
+        TilePainter(const Renderer& renderer, Shader<S, L>& shader, RayCounts& rays)
+            : renderer_(renderer), shader_(shader), rays_(rays),
+              n_(samples_per_axis(renderer.request_.settings)),
               samples_across_(static_cast<std::size_t>(n_ * tile_size)),
               columns_(static_cast<std::size_t>(n_ * tile_size / pack_width)),
               rows_(static_cast<std::size_t>(n_ * tile_size / pack_height)) {
@@ -114,8 +133,9 @@ private:
         }
 
         /// The pixels from (x, y) of the crop on; those outside the crop are left out.
-        void paint(int x, int y) {
+        void paint(int x, int y, Candidates candidates) {
             place(x, y);
+            candidates_ = candidates;
             const int bottom = std::min(y + tile_size, renderer_.height_);
             const int columns = std::min(tile_size, renderer_.width_ - x);
             for (int top = y; top < bottom; top += block_height) {
@@ -141,36 +161,44 @@ private:
         void place(int x, int y) {
             const Renderer& r = renderer_;
             const Crop& crop = r.request_.crop;
-            const int width = r.request_.settings.width, height = r.request_.settings.height;
+            left_ = crop.x0 + x;
+            top_ = crop.y0 + y;
             for (std::size_t i = 0; i < columns_.size(); ++i) {
-                const L column = samples_from(crop.x0 + x, static_cast<int>(i) * pack_width,
-                                              [](int lane) { return lane % pack_width; });
-                columns_[i] = {window_x(r.scene_.camera, column, width, height),
-                               column < L(static_cast<R>(crop.x1))};
+                const Part column = samples_from(left_, static_cast<int>(i) * pack_width,
+                                                 [](int lane) { return lane % pack_width; });
+                columns_[i] = {r.camera_.window_x(column.pixel, column.within),
+                               column.pixel < L(static_cast<R>(crop.x1))};
             }
             for (std::size_t j = 0; j < rows_.size(); ++j) {
-                const L row = samples_from(crop.y0 + y, static_cast<int>(j) * pack_height,
-                                           [](int lane) { return lane / pack_width; });
-                rows_[j] = {window_y(r.scene_.camera, row, height), row < L(static_cast<R>(crop.y1))};
+                const Part row = samples_from(top_, static_cast<int>(j) * pack_height,
+                                              [](int lane) { return lane / pack_width; });
+                rows_[j] = {r.camera_.window_y(row.pixel, row.within),
+                            row.pixel < L(static_cast<R>(crop.y1))};
             }
-            candidates_ = r.candidates_in_tile(x, y);
         }
-        /// Where the samples from `first` on of the pixels from `pixel` on lie. What is no whole pixel is
-        /// added last, so that rounding does not depend on where the tile begins.
+        /// Pixels and where in them, in one direction.
+        struct Part {
+            L pixel, within;
+        };
+        /// Where the samples from `first` on of the pixels from `pixel` on lie.
         template <class Offset>
-        L samples_from(int pixel, int first, Offset&& offset) const {
-            L whole, within;
+        Part samples_from(int pixel, int first, Offset&& offset) const {
+            Part result;
             for (int lane = 0; lane < lane_count<L>; ++lane) {
                 const int sample = first + offset(lane);
-                set_lane(whole, lane, static_cast<R>(pixel + sample / n_));
-                set_lane(within, lane, (static_cast<R>(sample % n_) + R(0.5)) / static_cast<R>(n_));
+                set_lane(result.pixel, lane, static_cast<R>(pixel + sample / n_));
+                set_lane(result.within, lane, (static_cast<R>(sample % n_) + R(0.5)) / static_cast<R>(n_));
             }
-            return whole + within;
+            return result;
+        }
+        /// That of a lane of the pack from (i, j) of the tile's samples on.
+        Sample sample_of(int i, int j, int lane) const {
+            const int x = i + lane % pack_width, y = j + lane / pack_width;
+            return {{left_ + x / n_, top_ + y / n_}, y % n_ * n_ + x % n_};
         }
 
         /// Samples one block, from (i, j) of the strip's samples, whose first row is `above` of the tile's.
         void trace(int i, int j, int above) {
-            const Projection projection = renderer_.projection();
             std::array<Ray<L>, packs> rays;
             std::array<MaskOf<L>, packs> inside;
             std::array<Rgb<L>, packs> colors;
@@ -181,11 +209,13 @@ private:
                 const Positions& row = rows_[static_cast<std::size_t>(pack_j / pack_height)];
                 const auto pack = static_cast<std::size_t>(p);
                 inside[pack] = column.inside & row.inside;
-                rays[pack] = camera_ray(renderer_.scene_.camera, projection, column.window, row.window);
+                rays[pack] = renderer_.camera_.straight_ray(column.window, row.window);
                 rays_.primary += count_lanes(inside[pack]);
             }
-            shader_.radiance(rays, projection == Projection::perspective ? Apex::origin : Apex::none,
-                             candidates_, inside, colors);
+            if (!renderer_.camera_.is_straight()) {
+                bend(i, above + j, rays);
+            }
+            shader_.radiance(rays, renderer_.camera_.apex(), candidates_, inside, colors);
             for (int p = 0; p < packs; ++p) {
                 const int pack_i = i + p % packs_across * pack_width,
                           pack_j = j + p / packs_across * pack_height;
@@ -193,6 +223,18 @@ private:
                 keep(color.r, sample_at(0, pack_i, pack_j));
                 keep(color.g, sample_at(1, pack_i, pack_j));
                 keep(color.b, sample_at(2, pack_i, pack_j));
+            }
+        }
+        /// The rays of the block from (i, j) of the tile's samples on.
+        [[gnu::noinline]] void bend(int i, int j, std::array<Ray<L>, packs>& rays) const {
+            for (int p = 0; p < packs; ++p) {
+                const int pack_i = i + p % packs_across * pack_width,
+                          pack_j = j + p / packs_across * pack_height;
+                renderer_.camera_.bend(
+                    columns_[static_cast<std::size_t>(pack_i / pack_width)].window,
+                    rows_[static_cast<std::size_t>(pack_j / pack_height)].window,
+                    [&](int lane) { return sample_of(pack_i, pack_j, lane); },
+                    rays[static_cast<std::size_t>(p)]);
             }
         }
         void keep(const L& values, R* to) const {
@@ -238,9 +280,10 @@ private:
         }
 
         const Renderer& renderer_;
-        Shader<S, L> shader_;
+        Shader<S, L>& shader_;
         RayCounts& rays_;
         int n_;
+        int left_ = 0, top_ = 0;                ///< of the tile, in the picture
         std::size_t samples_across_;            ///< the tile
         std::vector<Positions> columns_, rows_; ///< of the tile's packs across and down
         Candidates candidates_ = all_candidates;
@@ -254,28 +297,23 @@ private:
             return false;
         }
     }
-    /// Of the tile that begins at (x, y) of the crop, seen with a pixel around it.
-    Candidates candidates_in_tile(int x, int y) const {
-        if (boxes_.empty()) {
+    /// Of the tile that begins at (x, y) of the crop, with so many pixels around it, seen with one more.
+    Candidates candidates_in_tile(int x, int y, int around) const {
+        if (boxes_.empty() || !camera_.is_straight()) {
             return all_candidates;
         }
-        const int width = request_.settings.width, height = request_.settings.height;
         const auto corner = [&](int column, int row) {
-            return camera_ray(
-                scene_.camera, projection(),
-                window_x(scene_.camera, static_cast<R>(request_.crop.x0 + column), width, height),
-                window_y(scene_.camera, static_cast<R>(request_.crop.y0 + row), height));
+            return camera_ray(scene_.camera, camera_.projection(),
+                              camera_.window_x(static_cast<R>(request_.crop.x0 + column), R(0)),
+                              camera_.window_y(static_cast<R>(request_.crop.y0 + row), R(0)));
         };
-        const int left = x - 1, right = x + tile_size + 1, top = y - 1, bottom = y + tile_size + 1;
+        const int more = around + 1;
+        const int left = x - more, right = x + tile_size + more, top = y - more,
+                  bottom = y + tile_size + more;
         return candidates_in(boxes_, ViewPart<R>({corner(left, top), corner(right, top),
                                                   corner(right, bottom), corner(left, bottom)}));
     }
 
-    Projection projection() const {
-        return !S::traits.orthographic  ? Projection::perspective
-               : !S::traits.perspective ? Projection::orthographic
-                                        : scene_.camera.projection;
-    }
     void report_progress() {
         if (!request_.progress) {
             return;
@@ -292,6 +330,7 @@ private:
     const S& scene_;
     const RenderRequest& request_;
     Image& image_;
+    CameraRays<S> camera_;
     int width_, height_;
     int tiles_across_, tiles_;
     std::vector<Bounds<R>> boxes_; ///< of the shapes that are tested one by one, in the order of Candidates

@@ -8,6 +8,7 @@
 #include "runtime/material.h"
 #include "runtime/math/affine.h"
 #include "runtime/mesh_data.h"
+#include "runtime/render_settings.h"
 #include "runtime/shapes/list.h"
 
 #include <array>
@@ -47,14 +48,18 @@ struct SceneTraits {
     bool accelerator = false; ///< enough bounded shapes that a hierarchy over them pays
     bool perspective = false;
     bool orthographic = false;
+    bool spherical = false;
+    bool lens = false; ///< the camera has one, and is no pinhole
+    bool pixel_sampling =
+        false;            ///< samples in other places than a grid's, other weights than a box's, or adaptive
     bool spectra = false; ///< drawn three wavelengths at a time (bands.h), which the kernels do not notice
 
     friend constexpr bool operator==(const SceneTraits&, const SceneTraits&) = default;
 };
 
-inline constexpr SceneTraits everything{~0U,  ~0U,  ~0U,  ~0U,  true, true, true, true,
-                                        true, true, true, true, true, true, true, true,
-                                        true, true, true, true, true, true, true, true};
+inline constexpr SceneTraits everything{~0U,  ~0U,  ~0U,  ~0U,  true, true, true, true, true,
+                                        true, true, true, true, true, true, true, true, true,
+                                        true, true, true, true, true, true, true, true, true};
 
 /// What every shape in a scene carries.
 struct Tag {
@@ -84,15 +89,6 @@ struct Member {
     Primitive primitive{};
     bool inverted = false; ///< an odd number of subtractions takes it away: its outside is the solid's inside
     std::uint32_t solid = 0; ///< Tag::id of the whole
-};
-
-/// The picture's settings that a scene states and a command line may override.
-struct RenderSettings {
-    int width = 800;
-    int height = 600;
-    int samples_per_axis = 1; ///< n of n x n sub-pixel centres
-    int depth = 5;            ///< mirrors and refractions one after the other
-    bool shadows = true;
 };
 
 /// Two kinds of primitives per row of Shapes: even bare, odd placed.

@@ -1,5 +1,6 @@
 #include "compiler/backends/blender_ledger.h"
 
+#include "compiler/backends/sampling_ledger.h"
 #include "compiler/backends/spectra.h"
 #include "compiler/ir/objects.h"
 #include "runtime/illumination.h"
@@ -7,6 +8,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -267,9 +270,24 @@ private:
     }
 
     void record_camera() {
-        const bool perspective = scene_.camera.projection == runtime::Projection::perspective;
+        const runtime::Camera<double>& camera = scene_.camera;
         add({Fidelity::exact, "one ray through each pixel's centre"},
-            perspective ? "perspective_camera" : "orthographic_camera", "camera", scene_.camera_span);
+            fmt::format("{}_camera", word(runtime::projection_names, camera.projection)), "camera",
+            scene_.camera_span);
+        if (camera.lens_radius > 0) {
+            add({Fidelity::approximated,
+                 "Cycles' depth of field, 64 random points of the lens per pixel (`--samples`); bound: "
+                 "standard "
+                 "error of the mean over the range of what they see",
+                 1 / (2 * std::sqrt(64.0))},
+                "aperture", "camera", scene_.camera_span);
+        }
+        if (scene_.settings.point == runtime::PixelPoint::corner) {
+            add(fits_after_shift()
+                    ? Account{Fidelity::exact, "the window is shifted by half a pixel"}
+                    : Account{Fidelity::dropped, "Cycles' panoramas end at the poles and behind"},
+                "sampling", "render", scene_.sampling_span);
+        }
         if (needs_.extent < smallest_scene) {
             add({Fidelity::dropped, "Blender's camera sees nothing nearer than 1e-6"}, "scale", "scene",
                 scene_.camera_span);
@@ -281,6 +299,16 @@ private:
                  6e-8 * distance / needs_.extent},
                 "position", "scene", scene_.camera_span);
         }
+    }
+
+    /// Whether what a panorama shows lies within a turn and between the poles when it is half a pixel off.
+    bool fits_after_shift() const {
+        const runtime::Camera<double>& camera = scene_.camera;
+        const runtime::RenderSettings& settings = scene_.settings;
+        const double n = samples_per_axis(settings);
+        return camera.projection != runtime::Projection::spherical ||
+               (camera.half_width * (1 + n / settings.width) <= std::numbers::pi &&
+                camera.half_height * (1 + n / settings.height) <= std::numbers::pi / 2);
     }
 
     void record_settings() {
@@ -295,14 +323,15 @@ private:
             add({Fidelity::exact, scene_.settings.shadows ? "Cycles' shadow rays" : "lamps without shadows"},
                 "shadows", "render", scene_.camera_span);
         }
-        if (scene_.settings.samples_per_axis > 1) {
+        if (scene_.settings.samples > 1) {
             add({Fidelity::exact,
                  fmt::format(
                      "by `--size` {0} times larger and the mean of {0} x {0} pixels; the script itself takes "
                      "one sample",
-                     scene_.settings.samples_per_axis)},
+                     samples_per_axis(scene_.settings))},
                 "samples", "render", scene_.camera_span);
         }
+        record_sampling(scene_, ledger_);
     }
 
     const ir::Scene& scene_;

@@ -172,6 +172,7 @@ public:
         if (needs_.bounces > 0) {
             want("mirror");
         }
+        add(scene_.camera);
         measure();
         return std::move(needs_);
     }
@@ -179,6 +180,13 @@ public:
 private:
     void want(std::string_view feature) { needs_.features.emplace(feature); }
 
+    void add(const runtime::Camera<double>& camera) {
+        want(camera.projection == runtime::Projection::spherical ? "panorama" : "window");
+        want(camera.lens_radius > 0 ? "lens" : "pinhole");
+        if (scene_.settings.point == runtime::PixelPoint::corner) {
+            want("corner");
+        }
+    }
     void add(const ir::Object& object) {
         if (!std::holds_alternative<runtime::Csg<double>>(object.shape)) {
             add(object.sides);
@@ -375,8 +383,12 @@ bool is_smooth(const ir::Shape& shape, const ir::Scene& scene) {
     return mesh != nullptr && !scene.meshes[mesh->mesh].normals.empty();
 }
 
+bool is_window_flat(const runtime::Camera<double>& camera) {
+    return camera.projection != runtime::Projection::spherical && camera.lens_radius == 0;
+}
+
 bool has_pattern(const ir::Object& object, const ir::Scene& scene) {
-    return some_function(scene, object, reads_point);
+    return is_window_flat(scene.camera) && some_function(scene, object, reads_point);
 }
 
 BlenderNeeds blender_needs(const ir::Scene& scene) {

@@ -37,7 +37,11 @@ inline bool has_mirror(const runtime::Phong<double>& phong) {
 /// Whether a hit of the shape is shaded with normals interpolated from its corners.
 bool is_smooth(const ir::Shape& shape, const ir::Scene& scene);
 
-/// Whether a pattern of a plane needs its point more exactly than Cycles gives it.
+/// Whether a pixel's ray is a linear function of its column and row.
+bool is_window_flat(const runtime::Camera<double>& camera);
+
+/// Whether a pattern of a plane needs its point more exactly than Cycles gives it, and a pixel has one ray by
+/// which it can be found.
 bool has_pattern(const ir::Object& object, const ir::Scene& scene);
 
 } // namespace scc::compiler

@@ -57,12 +57,24 @@ private:
 
     void write_camera() {
         const runtime::Camera<double>& camera = scene_.camera;
-        const bool perspective = camera.projection == runtime::Projection::perspective;
+        static constexpr const char* types[] = {"PERSP", "ORTHO", "PANO"};
         out_.line("CAMERA = dict(type=\"{}\", eye={}, right={}, up={}, back={},",
-                  perspective ? "PERSP" : "ORTHO", python(camera.eye), python(camera.u), python(camera.v),
-                  python(camera.n));
-        out_.line("              half_height={}, shift=({}, {}))", python(camera.half_height),
-                  python(camera.shift_x), python(camera.shift_y));
+                  types[static_cast<std::size_t>(camera.projection)], python(camera.eye), python(camera.u),
+                  python(camera.v), python(camera.n));
+        std::string more;
+        if (has("panorama")) {
+            more += fmt::format(", half_width={}", python(camera.half_width));
+        }
+        if (has("lens")) {
+            more +=
+                fmt::format(", lens_radius={}, focus={}", python(camera.lens_radius), python(camera.focus));
+        }
+        out_.line("              half_height={}, shift=({}, {}){})", python(camera.half_height),
+                  python(camera.shift_x), python(camera.shift_y), more);
+        if (has("corner")) {
+            out_.line("SAMPLES_ACROSS = {}  # of a pixel: by so much `--size` is larger than the picture",
+                      samples_per_axis(scene_.settings));
+        }
     }
 
     void write_lights() {

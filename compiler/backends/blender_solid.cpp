@@ -50,7 +50,7 @@ runtime::Tolerance<double> tolerance_for(const ir::Scene& scene, const Bounds<do
                      coarsest = 1e-2; // of the solid's size: hundreds of thousands of triangles, and few
     const double size = length(box.max - box.min);
     double pixel = 2 * scene.camera.half_height / scene.settings.height;
-    if (scene.camera.projection == runtime::Projection::perspective) {
+    if (scene.camera.projection != runtime::Projection::orthographic) {
         const Vec3<double> nearest = minimum(maximum(scene.camera.eye, box.min), box.max);
         pixel *= std::max(length(nearest - scene.camera.eye), size / 20);
     }

@@ -101,10 +101,10 @@ std::string literal(const runtime::DirectionalLight<R>& l) {
 }
 template <class R>
 std::string literal(const runtime::Camera<R>& c) {
-    return fmt::format("{{Projection::{}, {}, {}, {}, {}, {}, {}, {}}}",
-                       c.projection == runtime::Projection::perspective ? "perspective" : "orthographic",
-                       literal(c.eye), literal(c.u), literal(c.v), literal(c.n), literal(c.half_height),
-                       literal(c.shift_x), literal(c.shift_y));
+    return fmt::format("{{Projection::{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}}}",
+                       word(runtime::projection_names, c.projection), literal(c.eye), literal(c.u),
+                       literal(c.v), literal(c.n), literal(c.half_height), literal(c.shift_x),
+                       literal(c.shift_y), literal(c.half_width), literal(c.lens_radius), literal(c.focus));
 }
 template <class R>
 std::string literal(const runtime::Mesh<R>& mesh) {
@@ -581,16 +581,19 @@ void Emitter<R>::program() {
     if (in_code_) {
         const runtime::RenderSettings& s = scene_.settings;
         facts = fmt::format(
-            ", .scene = {}, .settings = {{{}, {}, {}, {}, {}}}{}", quote(Language::cpp, scene_.name), s.width,
-            s.height, s.samples_per_axis, s.depth, literal(s.shadows),
+            ", .scene = {}, .settings = {{{}, {}, {}, {}, {}, PixelPoint::{}, Sampler::{}, PixelFilter::{}, "
+            "{}}}{}",
+            quote(Language::cpp, scene_.name), s.width, s.height, s.samples, s.depth, literal(s.shadows),
+            word(runtime::pixel_point_names, s.point), word(runtime::sampler_names, s.sampler),
+            word(runtime::filter_names, s.filter), literal(s.adaptive),
             !has_values() ? "" : ", .values = scene_values, .values_size = sizeof scene_values");
     } else if (parameters_ != nullptr) {
         facts = fmt::format(", .redefine = scc::compiler::redefine, .structure = \"{}\"", structure_);
     }
     out_.line(
         "return scc::host::run_program({{.precision = \"{}\", .isa = scc::host::compiled_isa, .features = "
-        "features, .load = load, .draw = draw{}}}, argc, argv);",
-        name_of(precision_), facts);
+        "features, .load = load, .draw = draw{}{}}}, argc, argv);",
+        name_of(precision_), facts, scene_.traits.pixel_sampling ? ", .has_filters = true" : "");
     out_.dedent();
     out_.raw_line("}");
 }

@@ -5,6 +5,7 @@
 #include "compiler/backends/pov_material.h"
 #include "compiler/backends/pov_shape.h"
 #include "compiler/backends/pov_text.h"
+#include "compiler/backends/sampling_ledger.h"
 #include "compiler/backends/spectra.h"
 #include "compiler/bounds.h"
 #include "compiler/field_bounds.h"
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <type_traits>
@@ -120,12 +122,13 @@ private:
         if (!settings.shadows) {
             note(Fidelity::exact, "shadows", "render", {}, "every object is no_shadow");
         }
-        if (settings.samples_per_axis > 1) {
-            const int n = settings.samples_per_axis;
+        if (settings.samples > 1) {
+            const int n = samples_per_axis(settings);
             note(Fidelity::exact, "samples", "render", {},
                  fmt::format("a picture {} times larger, averaged over {} x {} pixels, is the sampled one", n,
                              n, n));
         }
+        record_sampling(scene_, ledger_);
     }
 
     void emit_frame_comment(Writer& file) {
@@ -140,25 +143,64 @@ private:
     }
 
     void emit_camera() {
+        camera_.line("camera {{");
+        camera_.indent();
+        camera_.line("{}", word(runtime::projection_names, scene_.camera.projection));
+        if (scene_.camera.projection == runtime::Projection::spherical) {
+            emit_spherical();
+        } else {
+            emit_window();
+        }
+        camera_.dedent();
+        camera_.line("}}");
+        const bool windowed = scene_.camera.projection != runtime::Projection::spherical;
+        note(Fidelity::exact,
+             fmt::format("{}_camera", word(runtime::projection_names, scene_.camera.projection)), "camera",
+             scene_.camera_span,
+             windowed ? "location, direction, right and up; `near` and `far` do not matter to ray casting"
+                      : "location, direction, right, up and angle");
+        if (scene_.camera.lens_radius > 0) {
+            note(Fidelity::dropped, "aperture", "camera", scene_.camera_span,
+                 "POV-Ray's own focal blur is another lens (4e-2 off, root mean square, at 500 points)");
+        }
+        if (scene_.settings.point == runtime::PixelPoint::corner) {
+            note(windowed ? Fidelity::exact : Fidelity::dropped, "sampling", "render", scene_.sampling_span,
+                 windowed ? "the window is shifted by half a pixel"
+                          : "POV-Ray's spherical camera has no latitudes but those around its direction");
+        }
+    }
+
+    void emit_window() {
         const runtime::Camera<double>& c = scene_.camera;
         const bool perspective = c.projection == runtime::Projection::perspective;
         const double half = perspective ? c.half_height : c.half_height * frame_.scale;
-        const Vec3<double> up = (2 * half) * c.v;
         // Windows are shifted by window heights; right is in window widths.
         const Vec3<double> shift = (2 * half) * (c.shift_x * c.u + c.shift_y * c.v);
         const Vec3<double> eye = frame_.point(c.eye);
-        camera_.line("camera {{");
-        camera_.indent();
-        camera_.line("{}", perspective ? "perspective" : "orthographic");
-        camera_.line("location {}", pov_vector(perspective ? eye : eye + shift));
-        camera_.line("direction {}", pov_vector(perspective ? shift - c.n : -c.n));
+        const auto corner = [&]() -> std::string { // half a pixel of the final picture to the left and down
+            if (scene_.settings.point != runtime::PixelPoint::corner) {
+                return "";
+            }
+            const double n = samples_per_axis(scene_.settings);
+            return fmt::format(" - {}/image_height", pov_vector((n * half) * (c.u + c.v)));
+        };
+        camera_.line("location {}{}", pov_vector(perspective ? eye : eye + shift),
+                     perspective ? "" : corner());
+        camera_.line("direction {}{}", pov_vector(perspective ? shift - c.n : -c.n),
+                     perspective ? corner() : "");
         camera_.line("right {}*image_width/image_height", pov_vector((2 * half) * c.u));
-        camera_.line("up {}", pov_vector(up));
-        camera_.dedent();
-        camera_.line("}}");
-        note(Fidelity::exact, perspective ? "perspective_camera" : "orthographic_camera", "camera",
-             scene_.camera_span,
-             "location, direction, right and up; `near` and `far` do not matter to ray casting");
+        camera_.line("up {}", pov_vector((2 * half) * c.v));
+    }
+
+    /// POV-Ray turns the direction about `up` and `right` in a left-handed world.
+    void emit_spherical() {
+        const runtime::Camera<double>& c = scene_.camera;
+        constexpr double degrees = 180 / std::numbers::pi;
+        camera_.line("location {}", pov_vector(frame_.point(c.eye)));
+        camera_.line("direction {}", pov_vector(-c.n));
+        camera_.line("right {}", pov_vector(-c.u));
+        camera_.line("up {}", pov_vector(-c.v));
+        camera_.line("angle {}, {}", number(2 * c.half_width * degrees), number(2 * c.half_height * degrees));
     }
 
     void emit_objects() {

@@ -31,18 +31,18 @@ constexpr int trial_parts[] = {1000, 200};
 constexpr double fewest_samples = 250, most_samples = 5000;
 
 double samples_of(const RenderSettings& settings, int part) {
-    const double all = static_cast<double>(settings.width) * settings.height * settings.samples_per_axis *
-                       settings.samples_per_axis;
+    const double all = static_cast<double>(settings.width) * settings.height * settings.samples;
     return std::clamp(all / part, fewest_samples, most_samples);
 }
 
 /// A part of a picture of another size, a sample per pixel.
 RenderRequest request_of(const RenderSettings& settings, int width, int height, const runtime::Crop& crop,
                          int threads) {
-    RenderRequest request{.settings = settings, .crop = crop, .threads = threads, .progress = {}};
+    RenderRequest request{
+        .settings = with_plain_grid(settings), .crop = crop, .threads = threads, .progress = {}};
     request.settings.width = width;
     request.settings.height = height;
-    request.settings.samples_per_axis = 1;
+    request.settings.samples = 1;
     return request;
 }
 

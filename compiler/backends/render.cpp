@@ -147,8 +147,7 @@ constexpr double worth_a_trial = 50'000;
 
 std::optional<std::string> reason_against_float(const ir::Scene& scene,
                                                 const runtime::RenderSettings& settings) {
-    const double samples = static_cast<double>(settings.width) * settings.height * settings.samples_per_axis *
-                           settings.samples_per_axis;
+    const double samples = static_cast<double>(settings.width) * settings.height * settings.samples;
     if (samples < worth_a_trial) {
         return "the picture is too small for float to save time";
     }

@@ -77,9 +77,17 @@ runtime::DirectionalLight<R> convert(const runtime::DirectionalLight<double>& l,
 }
 template <class R>
 runtime::Camera<R> convert(const runtime::Camera<double>& c, R real) {
-    return {
-        c.projection,       convert(c.eye, real),         convert(c.u, real),       convert(c.v, real),
-        convert(c.n, real), convert(c.half_height, real), convert(c.shift_x, real), convert(c.shift_y, real)};
+    return {c.projection,
+            convert(c.eye, real),
+            convert(c.u, real),
+            convert(c.v, real),
+            convert(c.n, real),
+            convert(c.half_height, real),
+            convert(c.shift_x, real),
+            convert(c.shift_y, real),
+            convert(c.half_width, real),
+            convert(c.lens_radius, real),
+            convert(c.focus, real)};
 }
 
 /// A described shape, member by member.

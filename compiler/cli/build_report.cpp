@@ -74,7 +74,7 @@ double draw_generic(const host::Drawable& drawable) {
     request.settings = drawable.settings;
     request.settings.width = width;
     request.settings.height = height;
-    request.settings.samples_per_axis = 1;
+    request.settings.samples = 1;
     request.crop = {0, 0, width, height};
     runtime::Image image(width, height);
     const auto start = std::chrono::steady_clock::now();

@@ -63,7 +63,7 @@ void draw_reference(Subject& subject) {
     subject.report.reference = draw_with(subject, compiler::Precision::full);
     subject.report.times.trace = seconds_since(start);
     const runtime::RenderSettings& s = subject.request.settings;
-    const int samples = s.samples_per_axis * s.samples_per_axis;
+    const int samples = s.samples;
     subject.report.reference_made_by =
         fmt::format("scc render --precision double --size {}x{} --samples {}", s.width, s.height, samples);
 
@@ -80,10 +80,10 @@ void draw_reference(Subject& subject) {
 void judge(RendererReport& result, const Subject& subject, double exposure,
            const compiler::Ledger& ledger = {}) {
     const runtime::RenderSettings& s = subject.request.settings;
-    result.budget = validation::budget_for(result.renderer, s.width, s.height, s.samples_per_axis, exposure);
+    result.budget = validation::budget_for(result.renderer, s.width, s.height, samples_per_axis(s), exposure);
     if (std::any_of(ledger.begin(), ledger.end(), [](const auto& entry) { return entry.is_refined_mesh; })) {
         result.budget =
-            validation::with_refined_meshes(*result.budget, s.width, s.height, s.samples_per_axis);
+            validation::with_refined_meshes(*result.budget, s.width, s.height, samples_per_axis(s));
     }
     validation::CompareOptions options;
     options.thresholds = validation::thresholds_for(*result.budget);
@@ -96,9 +96,9 @@ RendererReport run_native(const Subject& subject) {
     result.renderer = "native";
     const std::string program = (subject.folder.path() / "native").string();
     try {
-        compile_native(
-            emit_cpp(subject.loaded.scene, compiler::Precision::full, compiler::Numbers::as_values), {},
-            program);
+        ir::Scene scene = subject.loaded.scene;
+        scene.settings = subject.request.settings;
+        compile_native(emit_cpp(scene, compiler::Precision::full, compiler::Numbers::as_values), {}, program);
     } catch (const EnvironmentError& error) {
         result.judgement = {Verdict::skipped, error.what()};
         return result;
@@ -109,7 +109,7 @@ RendererReport run_native(const Subject& subject) {
     command.directory = subject.folder.path();
     command.arguments = {"-o",        "native.exr",
                          "--size",    fmt::format("{}x{}", s.width, s.height),
-                         "--samples", std::to_string(s.samples_per_axis * s.samples_per_axis),
+                         "--samples", std::to_string(s.samples),
                          "--threads", std::to_string(subject.request.threads)};
     const validation::ProcessResult run = validation::run(command);
     if (run.end == validation::ProcessEnd::interrupted) {
@@ -144,7 +144,7 @@ validation::RenderResult run_renderer(const compiler::Exporter& exporter, const 
     job.folder = subject.folder.path();
     job.width = subject.request.settings.width;
     job.height = subject.request.settings.height;
-    job.samples_per_axis = subject.request.settings.samples_per_axis;
+    job.samples_per_axis = samples_per_axis(subject.request.settings);
     job.threads = subject.request.threads;
     job.timeout_seconds = timeout_seconds;
     job.brightest = brightest;
@@ -256,6 +256,7 @@ std::unique_ptr<Subject> prepare_subject(const Options& options, const std::stri
         return nullptr;
     }
     subject->request = make_request(options.render, subject->loaded.scene.settings);
+    subject->request.settings = with_plain_grid(subject->request.settings); // which all renderers can have
     subject->report.name = subject->loaded.scene.name;
     draw_reference(*subject);
     return subject;

@@ -195,12 +195,23 @@ std::string print(const Scene& scene) {
     Writer out(2);
     out.line("scene {}", quote(Language::cpp, scene.name));
     const runtime::RenderSettings& s = scene.settings;
-    out.line("picture {} x {}, {} x {} samples, depth {}, shadows {}", s.width, s.height, s.samples_per_axis,
-             s.samples_per_axis, s.depth, text(s.shadows));
+    out.line("picture {} x {}, {} samples, depth {}, shadows {}", s.width, s.height, s.samples, s.depth,
+             text(s.shadows));
+    if (s.point != runtime::PixelPoint::center || !is_plain_grid(s)) {
+        out.line("pixels at {}, sampler {}, filter {}, adaptive {}",
+                 word(runtime::pixel_point_names, s.point), word(runtime::sampler_names, s.sampler),
+                 word(runtime::filter_names, s.filter), s.adaptive);
+    }
     const runtime::Camera<double>& c = scene.camera;
     out.line("camera {} eye = {}, u = {}, v = {}, n = {}, half_height = {}, shift = ({}, {})",
-             c.projection == runtime::Projection::perspective ? "perspective" : "orthographic", text(c.eye),
-             text(c.u), text(c.v), text(c.n), c.half_height, c.shift_x, c.shift_y);
+             word(runtime::projection_names, c.projection), text(c.eye), text(c.u), text(c.v), text(c.n),
+             c.half_height, c.shift_x, c.shift_y);
+    if (c.projection == runtime::Projection::spherical) {
+        out.line("half_width = {}", c.half_width);
+    }
+    if (c.lens_radius > 0) {
+        out.line("lens radius = {}, focus = {}", c.lens_radius, c.focus);
+    }
     out.line("ambient = {}", text(scene.ambient));
     out.line("background = {}", text(scene.background));
     for (const runtime::BandGroup<double>& band : scene.bands) {

@@ -121,6 +121,7 @@ struct Scene {
     std::vector<runtime::BandGroup<double>> bands;
     std::string file; ///< that the scene names for its picture, or empty
     runtime::RenderSettings settings;
+    lang::Span sampling_span;    ///< of the render that says where samples lie and what they count
     runtime::SceneTraits traits; ///< by the pass derive_traits
 };
 

@@ -37,6 +37,9 @@ inline constexpr auto trait_flags = std::to_array<TraitFlag>({
     {"accelerator", &runtime::SceneTraits::accelerator},
     {"perspective", &runtime::SceneTraits::perspective},
     {"orthographic", &runtime::SceneTraits::orthographic},
+    {"spherical", &runtime::SceneTraits::spherical},
+    {"lens", &runtime::SceneTraits::lens},
+    {"pixel_sampling", &runtime::SceneTraits::pixel_sampling},
     {"spectra", &runtime::SceneTraits::spectra},
 });
 

@@ -145,6 +145,11 @@ std::vector<Need> needs_of(const ir::Scene& scene) {
     SceneTraits& camera = needs.emplace_back(SceneTraits{}, scene.camera_span).traits;
     camera.perspective = scene.camera.projection == runtime::Projection::perspective;
     camera.orthographic = scene.camera.projection == runtime::Projection::orthographic;
+    camera.spherical = scene.camera.projection == runtime::Projection::spherical;
+    camera.lens = scene.camera.lens_radius > 0;
+    if (!is_plain_grid(scene.settings)) {
+        needs.emplace_back(SceneTraits{}, scene.sampling_span).traits.pixel_sampling = true;
+    }
     return needs;
 }
 

@@ -52,7 +52,7 @@ protected:
         Image ours(theirs.width, theirs.height);
         runtime::RenderRequest request;
         request.settings = scene.settings;
-        request.settings.samples_per_axis = 1;
+        request.settings.samples = 1;
         request.crop = {0, 0, ours.width, ours.height};
         make_drawable(scene, Precision::full).render(request, ours);
         int count = 0;
@@ -94,6 +94,47 @@ plane {
             EXPECT_NEAR(image.at(column, row)[c], expected[c], 2e-6) << column << ", " << row;
         }
     }
+}
+
+const std::string things_around = R"(
+plane { material = phong { diffuse = rgb(0.4, 0.5, 0.6) } }
+point_light { position = (1, 4, 3) }
+sphere { center = (0, 1, -2), radius = 0.7, material = phong { diffuse = rgb(0.8, 0.2, 0.1) } }
+box { min = (-3, 0, 1), max = (-2, 2, 2) }
+)";
+
+TEST_F(BlenderRender, PanoramasAndTheCornersOfPixelsAgree) {
+    ir::Scene scene = scene_of(things_around + "spherical_camera { eye = (0, 1.5, 1), target = (1, 1.2, -1), "
+                                               "up = (0.1, 1, 0), fov_x = 300deg, fov_y = 170deg }");
+    EXPECT_LE(differing_pixels(scene), 2);
+    scene.settings.point = runtime::PixelPoint::corner;
+    EXPECT_LE(differing_pixels(scene), 2);
+    scene = scene_of(things_around + "perspective_camera { eye = (1, 2, 6), shift = (0.1, 0) }");
+    scene.settings.point = runtime::PixelPoint::corner;
+    EXPECT_LE(differing_pixels(scene), 2);
+}
+
+TEST_F(BlenderRender, LensesConvergeToTheSamePicture) {
+    ir::Scene scene =
+        scene_of(things_around +
+                 "perspective_camera { eye = (0, 2, 6), target = (0, 0.7, 0), aperture = 0.5, focus = 5 }");
+    scene.settings.samples = 1024;
+    scene.settings.sampler = runtime::Sampler::low_discrepancy;
+    Image ours(64, 48);
+    make_drawable(scene, Precision::full)
+        .render({.settings = scene.settings, .crop = {0, 0, 64, 48}, .progress = {}}, ours);
+    const Image theirs = drawn(scene, "--size 128x96 --samples 64");
+    double squares = 0;
+    for (int y = 0; y < 48; ++y) {
+        for (int x = 0; x < 3 * 64; ++x) {
+            const auto from = [&](int i, int j) {
+                return double{theirs.at(0, 2 * y + j)[x / 3 * 6 + 3 * i + x % 3]};
+            };
+            const double mean = (from(0, 0) + from(1, 0) + from(0, 1) + from(1, 1)) / 4;
+            squares += std::pow(mean - double{ours.at(0, y)[x]}, 2);
+        }
+    }
+    EXPECT_LT(std::sqrt(squares / (64 * 48 * 3)), 8e-3);
 }
 
 TEST_F(BlenderRender, MirrorsAddWhatTheySeeAndLightsLeaveShadows) {

@@ -3,6 +3,7 @@
 #include "compiler/test/folder.h"
 #include "compiler/test/support.h"
 #include "runtime/host/read_image.h"
+#include "runtime/sampling.h"
 
 #include <gtest/gtest.h>
 
@@ -53,7 +54,7 @@ protected:
         Image image(scene.settings.width, scene.settings.height);
         runtime::RenderRequest request;
         request.settings = scene.settings;
-        request.settings.samples_per_axis = 1;
+        request.settings.samples = 1;
         request.crop = {0, 0, image.width, image.height};
         make_drawable(scene, Precision::full).render(request, image);
         return image;
@@ -94,6 +95,64 @@ plane { material = phong { diffuse = rgb(0.4, 0.5, 0.6) } }
 )";
 const std::string camera = "perspective_camera { eye = (3, 4, 7), target = (0, 0.5, 0), fov_y = 45deg }\n";
 const std::string lamp = "point_light { position = (3, 6, 4), color = rgb(0.8, 0.7, 0.6) }\n";
+
+TEST_F(PovRender, PanoramasAndTheCornersOfPixelsAgree) {
+    const std::string things = room + lamp +
+                               "sphere { center = (0, 1, -2), radius = 0.7, material = phong { diffuse = "
+                               "rgb(0.8, 0.2, 0.1), reflect = rgb(0.3, 0.3, 0.3) } }\n"
+                               "box { min = (-3, 0, 1), max = (-2, 2, 2) }\n";
+    const std::string corners = "render { sampling = \"corner\" }\n";
+    expect_same_picture(things +
+                        "spherical_camera { eye = (0, 1.5, 1), target = (1, 1.2, -1), up = (0.1, 1, 0) }");
+    expect_same_picture(things + "spherical_camera { eye = (0, 1.5, 1), fov_x = 120deg, fov_y = 70deg }");
+    expect_same_picture(things + camera + corners);
+    expect_same_picture(things + "orthographic_camera { eye = (1, 3, 5), height = 5 }\n" + corners);
+}
+
+/// POV-Ray draws what each of a few points of the lens sees by a pinhole camera, its window shifted so that
+/// the plane in focus stays in place; their mean comes near to the lens.
+TEST_F(PovRender, LensesAreTheMeanOfItsPinholes) {
+    constexpr int pinholes = 16;
+    ir::Scene scene = scene_of(room + lamp + R"(
+perspective_camera { eye = (0, 2, 6), target = (0, 0.7, 0), aperture = 0.5, focus = 5 }
+sphere { center = (-1, 1, 1), material = phong { diffuse = rgb(0.8, 0.2, 0.1) } }
+sphere { center = (1, 1, -4), material = phong { diffuse = rgb(0.2, 0.3, 0.8) } }
+)");
+    scene.settings.samples = 256;
+    scene.settings.sampler = runtime::Sampler::low_discrepancy;
+    Image lens(scene.settings.width / 2, scene.settings.height / 2);
+    runtime::RenderRequest request{
+        .settings = scene.settings, .crop = {0, 0, lens.width, lens.height}, .progress = {}};
+    request.settings.width = lens.width;
+    request.settings.height = lens.height;
+    make_drawable(scene, Precision::full).render(request, lens);
+
+    const runtime::Camera<double> camera_with_lens = scene.camera;
+    std::vector<double> mean(lens.pixels.size());
+    for (int i = 0; i < pinholes; ++i) {
+        const runtime::SquarePoint point = runtime::SobolPoints({7, 3}, runtime::PointUse::lens)[i];
+        const runtime::Vec2<double> at =
+            runtime::in_disc(runtime::part_of_unit<double>(point.x), runtime::part_of_unit<double>(point.y));
+        runtime::Camera<double>& c = scene.camera = camera_with_lens;
+        c.lens_radius = 0;
+        c.eye = c.eye + camera_with_lens.lens_radius * (at.x * c.u + at.y * c.v);
+        const double shift = -camera_with_lens.lens_radius / c.focus / (2 * c.half_height);
+        c.shift_x = shift * at.x;
+        c.shift_y = shift * at.y;
+        const Image seen = theirs(scene, 1);
+        for (int y = 0; y < seen.height; ++y) {
+            for (int x = 0; x < 3 * seen.width; ++x) {
+                const int to = y / 2 * 3 * lens.width + x / 6 * 3 + x % 3;
+                mean[static_cast<std::size_t>(to)] += double{seen.at(0, y)[x]} / (4 * pinholes);
+            }
+        }
+    }
+    double squares = 0;
+    for (std::size_t i = 0; i < mean.size(); ++i) {
+        squares += std::pow(mean[i] - double{lens.pixels[i]}, 2);
+    }
+    EXPECT_LT(std::sqrt(squares / static_cast<double>(mean.size())), 8e-3); // measured: see the commit
+}
 
 /// A row per shape, and where each stands in the picture.
 struct PlacedShape {

@@ -101,7 +101,7 @@ std::string statistics(const Drawable& drawable, const runtime::RenderRequest& r
         member("schema", 1),
         member("scene", std::string_view(drawable.scene)),
         "\"size\": " + list("[]", {json(settings.width), json(settings.height)}, 0),
-        member("samples", settings.samples_per_axis * settings.samples_per_axis),
+        member("samples", settings.samples),
         member("threads", request.threads),
         member("precision", std::string_view(drawable.precision)),
         member("precision_reason", std::string_view(drawable.precision_reason)),

@@ -56,12 +56,18 @@ void set_size(RenderOptions& options, const std::string& text) {
 
 void set_samples(RenderOptions& options, const std::string& text) {
     const std::vector<int> samples = whole_numbers(text, ',');
-    const int root =
-        samples.size() == 1 && samples[0] > 0 ? static_cast<int>(std::lround(std::sqrt(samples[0]))) : 0;
-    if (root < 1 || root > 64 || root * root != samples[0]) {
-        refuse(text, "a square number from 1 to 4096 (1, 4, 9, 16, ...)");
+    if (samples.size() != 1 || samples[0] < 1 || samples[0] > runtime::most_samples) {
+        refuse(text, "a whole number from 1 to 4096");
     }
-    options.samples_per_axis = root;
+    options.samples = samples[0];
+}
+
+void set_filter(RenderOptions& options, const std::string& text) {
+    const auto& names = runtime::filter_names;
+    if (std::find(names.begin(), names.end(), text) == names.end()) {
+        refuse(text, "box, mitchell, gaussian or blackman_harris");
+    }
+    options.filter = runtime::choice_of<runtime::PixelFilter>(names, text);
 }
 
 void set_crop(RenderOptions& options, const std::string& text) {
@@ -100,7 +106,9 @@ constexpr auto rows = std::to_array<OptionRow>({
     {"--output", "-o", "IMG", "the picture: .png (8 or 16 bit, sRGB), .exr or .pfm (float, linear)", false,
      true, [](RenderOptions& options, const std::string& text) { options.output = text; }},
     {"--size", nullptr, "WxH", "size in pixels", true, false, set_size},
-    {"--samples", nullptr, "N", "samples per pixel, a square number", true, false, set_samples},
+    {"--samples", nullptr, "N", "samples per pixel; of a grid a square number", true, false, set_samples},
+    {"--filter", nullptr, "NAME", "weights of samples: box, mitchell, gaussian or blackman_harris", false,
+     false, set_filter},
     {"--threads", nullptr, "N", "threads; default: one per core", true, false, set_threads},
     {"--crop", nullptr, "X0,Y0,X1,Y1", "draw only these pixels, rows from the top, ends excluded", false,
      false, set_crop},
@@ -290,8 +298,13 @@ runtime::RenderRequest make_request(const RenderOptions& options, const runtime:
         request.settings.width = options.size->first;
         request.settings.height = options.size->second;
     }
-    if (options.samples_per_axis) {
-        request.settings.samples_per_axis = *options.samples_per_axis;
+    request.settings.samples = options.samples.value_or(scene.samples);
+    request.settings.filter = options.filter.value_or(scene.filter);
+    if (!runtime::fits_sampler(request.settings)) {
+        throw UsageError(
+            "--samples: " + std::to_string(request.settings.samples) +
+            " samples make no grid; their number is a square (1, 4, 9, 16, ...) unless the scene "
+            "has `sampler = \"low_discrepancy\"`");
     }
     request.threads = thread_count(options);
     request.crop =

@@ -31,7 +31,8 @@ enum class ProgressMode { automatic, always, never };
 struct RenderOptions {
     std::string output;
     std::optional<std::pair<int, int>> size;
-    std::optional<int> samples_per_axis;
+    std::optional<int> samples;
+    std::optional<runtime::PixelFilter> filter;
     std::optional<runtime::Crop> crop;
     int threads = 0; ///< 0: one per core
     int bits = 8;
@@ -45,7 +46,7 @@ struct OptionRow {
     const char* short_name; ///< or null
     const char* value;      ///< what stands for the value in the help
     const char* help;
-    bool picture; ///< says how the picture is drawn, and not where it goes
+    bool picture; ///< says how a picture is drawn that is compared with others', and not where it goes
     bool required;
     /// Throws UsageError for a bad value; the text says what a good one is.
     void (*set)(RenderOptions&, const std::string& value);
@@ -72,7 +73,8 @@ void check_output(const RenderOptions& options);
 /// At least one.
 int thread_count(const RenderOptions& options);
 
-/// The scene's settings with the command line's on top. Throws UsageError for a crop outside the picture.
+/// The scene's settings with the command line's on top. Throws UsageError for a crop outside the picture, and
+/// for samples that make no grid where the scene's sampler is one.
 runtime::RenderRequest make_request(const RenderOptions& options, const runtime::RenderSettings& scene);
 
 } // namespace scc::host

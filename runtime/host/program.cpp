@@ -99,7 +99,16 @@ std::string purpose_of(const Opened& opened) {
     const runtime::RenderSettings& settings = opened.settings;
     return "Draws the scene `" + opened.name + "`, for which this program was made. Default size " +
            std::to_string(settings.width) + " x " + std::to_string(settings.height) + ", " +
-           std::to_string(settings.samples_per_axis * settings.samples_per_axis) + " samples per pixel.";
+           std::to_string(settings.samples) + " samples per pixel.";
+}
+
+void check_filter(const Program& program, const RenderOptions& options) {
+    if (!program.has_filters &&
+        options.filter.value_or(runtime::PixelFilter::box) != runtime::PixelFilter::box) {
+        throw UsageError(
+            "--filter: this program has the box alone, since its scene takes the mean of a grid; "
+            "`filter` in the scene's `ray { }` brings the others");
+    }
 }
 
 int fail(int code, const char* text) {
@@ -118,6 +127,7 @@ int run_program(const Program& program, int argc, char** argv) {
         if (!options) {
             return exit_fine;
         }
+        check_filter(program, options->render);
         std::optional<AlignedBytes> redefined;
         if (!options->definitions.empty()) {
             redefined.emplace(program.redefine({opened.source, program.structure, program.precision,

@@ -43,6 +43,7 @@ struct Program {
     /// for people come after the settings. Throws UsageError, FileError, SceneError.
     std::string (*redefine)(const Redefinition&) = nullptr;
     const char* structure = nullptr; ///< what of the scene is in the code
+    bool has_filters = false;        ///< SceneTraits::pixel_sampling
 };
 
 /// The program's main: reads the options, draws, writes. Returns the exit code.

@@ -139,7 +139,7 @@ TYPED_TEST_SUITE(Rendering, Reals);
 
 TYPED_TEST(Rendering, CompiledSceneDrawsTheGenericImage) {
     RenderRequest wanted = request(203, 117);
-    wanted.settings.samples_per_axis = 2;
+    wanted.settings.samples = 4;
     const Image compiled = draw(LectureScene<TypeParam>{}, wanted);
     EXPECT_TRUE(is_varied(compiled));
     EXPECT_TRUE(same_bits(compiled, draw(generic_lecture_scene<TypeParam>(), wanted)));
@@ -264,6 +264,202 @@ TYPED_TEST(Rendering, ThreadsAndCropsDoNotChangeThePixels) {
     }
 }
 
+RenderRequest free_request(PixelFilter filter, int samples, double adaptive = 0) {
+    RenderRequest wanted = request(43, 35);
+    wanted.settings.sampler = Sampler::low_discrepancy;
+    wanted.settings.samples = samples;
+    wanted.settings.filter = filter;
+    wanted.settings.adaptive = adaptive;
+    return wanted;
+}
+
+TYPED_TEST(Rendering, FreeSamplesDependOnNeitherTilesNorCropsNorThreadsNorLanes) {
+    DynamicScene<TypeParam> scene = glass_scene<TypeParam>();
+    scene.camera.lens_radius = TypeParam(0.1);
+    for (RenderRequest wanted :
+         {free_request(PixelFilter::mitchell, 3), free_request(PixelFilter::blackman_harris, 24, 0.02)}) {
+        const Image whole = draw(scene, wanted);
+        EXPECT_TRUE(is_varied(whole));
+        Image one_by_one(43, 35);
+        render_with_lanes<TypeParam>(scene, wanted, one_by_one);
+        EXPECT_TRUE(same_bits(whole, one_by_one));
+        wanted.threads = 3;
+        wanted.crop = {5, 3, 41, 34};
+        const Image cropped = draw(scene, wanted);
+        for (int y = 0; y < cropped.height; ++y) {
+            EXPECT_EQ(std::memcmp(cropped.at(0, y), whole.at(5, 3 + y), sizeof(float) * 3 * 36), 0) << y;
+        }
+    }
+}
+
+TYPED_TEST(Rendering, HierarchiesDrawThroughALensWhatTheLoopDoes) {
+    Crowd<TypeParam> crowd(1);
+    ASSERT_FALSE(crowd.scene.accelerator.nodes.empty());
+    crowd.scene.camera.lens_radius = TypeParam(0.3);
+    crowd.scene.camera.focus = 11;
+    DynamicScene<TypeParam> plain = crowd.scene;
+    plain.accelerator = {};
+    const RenderRequest wanted = request(43, 35);
+    const Image image = draw(crowd.scene, wanted);
+    EXPECT_TRUE(is_varied(image));
+    EXPECT_TRUE(same_bits(image, draw(plain, wanted)));
+    crowd.scene.camera.projection = plain.camera.projection = Projection::spherical;
+    crowd.scene.camera.half_width = plain.camera.half_width = 3;
+    crowd.scene.camera.lens_radius = plain.camera.lens_radius = 0;
+    EXPECT_TRUE(same_bits(draw(crowd.scene, wanted), draw(plain, wanted)));
+}
+
+TYPED_TEST(Rendering, AdaptiveSamplingEndsBetweenItsBounds) {
+    const DynamicScene<TypeParam> scene = glass_scene<TypeParam>();
+    const auto drawn = [&](double tolerance, std::uint64_t& samples) {
+        Image image(43, 35);
+        samples = render(scene, free_request(PixelFilter::box, 40, tolerance), image).rays.primary;
+        return image;
+    };
+    std::uint64_t all = 0, some = 0, least = 0;
+    const Image exact = drawn(1e-30, all), near = drawn(0.01, some), rough = drawn(100, least);
+    EXPECT_EQ(least, 43U * 35 * 16);
+    EXPECT_TRUE(same_bits(rough, draw(scene, free_request(PixelFilter::box, 16))));
+    EXPECT_GT(some, least);
+    EXPECT_LT(some, all);
+    EXPECT_LE(all, 43U * 35 * 40);
+    const Image whole = draw(scene, free_request(PixelFilter::box, 40));
+    int differing = 0; // pixels whose first 16 samples see but one colour end there
+    double squares = 0;
+    for (std::size_t i = 0; i < exact.pixels.size(); ++i) {
+        differing += std::abs(exact.pixels[i] - whole.pixels[i]) > 1e-6F ? 1 : 0;
+        squares += std::pow(double{near.pixels[i]} - double{whole.pixels[i]}, 2);
+    }
+    EXPECT_LT(differing, 43 * 35 * 3 / 50);
+    EXPECT_LT(std::sqrt(squares / static_cast<double>(near.pixels.size())), 0.01);
+}
+
+TEST(Render, FiltersKeepASteadyPictureAndAreSymmetric) {
+    const DynamicScene<double> scene = generic_lecture_scene<double>();
+    DynamicScene<double> empty;
+    empty.background = {0.25, 0.5, 1};
+    prepare(empty);
+    RenderRequest small = request(5, 4);
+    for (const PixelFilter filter :
+         {PixelFilter::box, PixelFilter::mitchell, PixelFilter::gaussian, PixelFilter::blackman_harris}) {
+        small.settings.filter = filter;
+        small.settings.samples = 4;
+        for (const Image image = draw(empty, small); const std::size_t i : {0U, 3U, 57U}) {
+            EXPECT_NEAR(image.pixels[i], 0.25F, 1e-7F);
+            EXPECT_NEAR(image.pixels[i + 2], 1, 1e-7F);
+        }
+    }
+    // Weighted sums of a picture three times larger, away from its border.
+    RenderRequest wanted = request(40, 30);
+    wanted.settings.samples = 9;
+    wanted.settings.filter = PixelFilter::mitchell;
+    const Image filtered = draw(scene, wanted), fine = draw(scene, request(120, 90));
+    int differing = 0;
+    for (int y = 3; y < 27; ++y) {
+        for (int x = 3; x < 37; ++x) {
+            double sum = 0, weights = 0;
+            for (int j = 3 * (y - 2); j < 3 * (y + 3); ++j) {
+                for (int i = 3 * (x - 2); i < 3 * (x + 3); ++i) {
+                    const double weight = filter_weight(PixelFilter::mitchell, (i + 0.5) / 3 - x - 0.5) *
+                                          filter_weight(PixelFilter::mitchell, (j + 0.5) / 3 - y - 0.5);
+                    sum += weight * double{fine.at(i, j)[1]};
+                    weights += weight;
+                }
+            }
+            differing += std::abs(double{filtered.at(x, y)[1]} - sum / weights) > 2e-6 ? 1 : 0;
+        }
+    }
+    EXPECT_LE(differing, 50); // a sample exactly on an edge may fall to either side, for 25 pixels
+}
+
+TEST(Render, CornersAreThePixelsOfALargerPicture) {
+    const LectureScene<double> scene;
+    RenderRequest wanted = request(64, 48);
+    wanted.settings.point = PixelPoint::corner;
+    const Image corners = draw(scene, wanted);
+    // Two rows and columns more, of a window as much larger: its pixels' centres are half a pixel off.
+    DynamicScene<double> wider = generic_lecture_scene<double>();
+    wider.camera.shift_x = -0.5 / 48;
+    wider.camera.shift_y = -0.5 / 48;
+    const Image shifted = draw(wider, request(64, 48));
+    int differing = 0;
+    for (std::size_t i = 0; i < corners.pixels.size(); ++i) {
+        differing += std::abs(corners.pixels[i] - shifted.pixels[i]) > 1e-5F ? 1 : 0;
+    }
+    EXPECT_LE(differing, 3);
+}
+
+/// A lens spreads a point at the distance d over a disc: on the plane in focus, at the distance f, its
+/// diameter is A |d - f| / d.
+TEST(Render, BlurCirclesHaveTheDiameterOfTheThinLens) {
+    constexpr int side = 100;
+    constexpr double radius = 0.05, aperture = 1.2, half_height = 0.25;
+    for (const auto& [distance, focus] : {std::pair{8.0, 6.0}, {3.0, 4.5}}) {
+        DynamicScene<double> scene;
+        scene.materials.emplace_back().emission.value = {1, 1, 1};
+        scene.materials[0].ambient.value = scene.materials[0].diffuse.value = {};
+        scene.camera.eye = {0, 0, distance};
+        scene.camera.half_height = half_height;
+        scene.camera.lens_radius = aperture / 2;
+        scene.camera.focus = focus;
+        scene.add(Bare<Sphere<double>>{{{0, 0, 0}, radius}, {0, {0, 0}}});
+        prepare(scene);
+        RenderRequest wanted = request(side, side);
+        wanted.settings.sampler = Sampler::low_discrepancy;
+        wanted.settings.samples = 200;
+        constexpr int start = 32, part = 36;
+        wanted.crop = {start, start, start + part, start + part};
+        const Image image = draw(scene, wanted);
+        double sum = 0, squares = 0;
+        for (int i = 0; i < part * part; ++i) {
+            const double x = i % part - (part - 1) / 2.0, y = i / part - (part - 1) / 2.0;
+            const double value = double{image.at(i % part, i / part)[0]};
+            sum += value;
+            squares += value * (x * x + y * y) / 2;
+        }
+        // Of a disc the variance in one direction is the 16th part of its diameter's square; that of the
+        // sphere's own picture and of a pixel come in addition.
+        const double pixels = side / (2 * half_height);
+        const double own = 2 * radius / distance * pixels;
+        const double blurred = std::sqrt(16 * (squares / sum - 1.0 / 12) - own * own);
+        const double expected = aperture * std::abs(distance - focus) / distance / focus * pixels;
+        EXPECT_NEAR(blurred, expected, 0.03 * expected) << distance << ", " << focus;
+    }
+}
+
+/// Through each point of the lens a pinhole camera sees what the lens shows there, its window shifted so that
+/// the plane in focus stays in place.
+TEST(Render, LensesAreTheMeanOfShearedPinholes) {
+    DynamicScene<double> scene = glass_scene<double>();
+    scene.camera.lens_radius = 0.2;
+    scene.camera.focus = 5;
+    const Camera<double> lens = scene.camera;
+    RenderRequest wanted = request(24, 18);
+    wanted.settings.samples = 400;
+    const Image blurred = draw(scene, wanted);
+    constexpr int pinholes = 64;
+    std::vector<double> mean(blurred.pixels.size());
+    wanted.settings.samples = 4;
+    for (int i = 0; i < pinholes; ++i) {
+        const SquarePoint point = SobolPoints({7, 3}, PointUse::lens)[i];
+        const Vec2<double> at = in_disc(part_of_unit<double>(point.x), part_of_unit<double>(point.y));
+        scene.camera = lens;
+        scene.camera.lens_radius = 0;
+        scene.camera.eye = lens.eye + 0.2 * (at.x * lens.u + at.y * lens.v);
+        scene.camera.shift_x = -0.2 * at.x / lens.focus / (2 * lens.half_height);
+        scene.camera.shift_y = -0.2 * at.y / lens.focus / (2 * lens.half_height);
+        const Image sharp = draw(scene, wanted);
+        for (std::size_t k = 0; k < mean.size(); ++k) {
+            mean[k] += double{sharp.pixels[k]} / pinholes;
+        }
+    }
+    double squares = 0;
+    for (std::size_t k = 0; k < mean.size(); ++k) {
+        squares += std::pow(mean[k] - double{blurred.pixels[k]}, 2);
+    }
+    EXPECT_LT(std::sqrt(squares / static_cast<double>(mean.size())), 5e-3);
+}
+
 TEST(Render, CompiledSceneDrawsTheGenericImageInTheReferencePrecision) {
     const RenderRequest wanted = request(61, 43);
     EXPECT_TRUE(same_bits(draw(LectureScene<long double>{}, wanted),
@@ -273,7 +469,7 @@ TEST(Render, CompiledSceneDrawsTheGenericImageInTheReferencePrecision) {
 TEST(Render, SamplesAreTheCentresOfSubPixelsWithABoxFilter) {
     const LectureScene<double> scene;
     RenderRequest wanted = request(64, 48);
-    wanted.settings.samples_per_axis = 3;
+    wanted.settings.samples = 9;
     const Image sampled = draw(scene, wanted), fine = draw(scene, request(192, 144));
     int differing = 0;
     for (int y = 0; y < 48; ++y) {
@@ -292,7 +488,7 @@ TEST(Render, CountsItsRays) {
     const LectureScene<double> scene;
     Image image(50, 40);
     RenderRequest wanted = request(50, 40, 2);
-    wanted.settings.samples_per_axis = 2;
+    wanted.settings.samples = 4;
     const RenderResult result = render(scene, wanted, image);
     EXPECT_EQ(result.rays.primary, 50U * 40 * 4);
     EXPECT_GT(result.rays.shadow, result.rays.primary / 2);
@@ -306,7 +502,7 @@ TEST(Render, CountsItsRays) {
 TEST(Render, ProgressCanEndItEarly) {
     const LectureScene<double> scene;
     RenderRequest wanted = request(640, 480, 2);
-    wanted.settings.samples_per_axis = 30;
+    wanted.settings.samples = 900;
     int calls = 0;
     double part = -1;
     wanted.progress = [&](double done) {
@@ -324,7 +520,8 @@ TEST(Camera, PixelCentresAndTheWindowsShift) {
     Camera<double> camera; // at (0, 0, 5), looking down -z
     camera.half_height = 0.5;
     const auto first_ray = [&](Projection projection) {
-        return camera_ray(camera, projection, window_x(camera, 0.5, 4, 2), window_y(camera, 0.5, 2));
+        return camera_ray(camera, projection, window_x(camera, projection, 0.5, 4, 2),
+                          window_y(camera, 0.5, 2));
     };
     const Ray<double> first = first_ray(Projection::perspective);
     EXPECT_EQ(first.org, (Vec3<double>{0, 0, 5}));

@@ -293,17 +293,62 @@ def add_objects(collection, materials):
         place(ob, world[:3].tolist(), parent)
 
 
+#: window
+def window_shift():
+    """In heights of the picture."""
+    x, y = CAMERA["shift"]
+    #: corner
+    x, y = x - SAMPLES_ACROSS / (2 * SIZE[1]), y - SAMPLES_ACROSS / (2 * SIZE[1])
+    #: end
+    return x, y
+
+
+#: end
+#: panorama
+def panorama_corner():
+    """The longitude and the latitude at the picture's lower left corner."""
+    x = y = 1.0
+    #: corner
+    x, y = x + SAMPLES_ACROSS / SIZE[0], y + SAMPLES_ACROSS / SIZE[1]
+    #: end
+    return -x * CAMERA["half_width"], -y * CAMERA["half_height"]
+
+
+#: end
+#: lens
+def add_lens(data):
+    """Cycles takes the radius from the focal length, in mm, and the f-number, which is no less than 0.01."""
+    radius = CAMERA["lens_radius"]
+    larger = max(1.0, 2e3 * radius / data.lens)
+    data.sensor_height *= larger
+    data.lens *= larger
+    data.dof.use_dof, data.dof.focus_distance = True, CAMERA["focus"]
+    data.dof.aperture_fstop = data.lens / (2e3 * radius)
+
+
+#: end
 def add_camera(scene, collection):
     data = own(bpy.data.cameras.new("camera"))
     ob = new_object(collection, "camera", data)
     columns = [(*CAMERA[key], float(key == "eye")) for key in ("right", "up", "back", "eye")]
     ob.matrix_world = mathutils.Matrix(columns).transposed()
     data.type, data.sensor_fit = CAMERA["type"], "VERTICAL"
+    #: window
     if data.type == "PERSP":
         data.angle_y = 2 * math.atan(CAMERA["half_height"])
     else:
         data.ortho_scale = 2 * CAMERA["half_height"]
-    data.shift_x, data.shift_y = CAMERA["shift"]
+    data.shift_x, data.shift_y = window_shift()
+    #: end
+    #: panorama
+    data.cycles.panorama_type = "EQUIRECTANGULAR"
+    (west, south), (width, height) = panorama_corner(), (2 * CAMERA["half_width"], 2 * CAMERA["half_height"])
+    data.cycles.longitude_min, data.cycles.longitude_max = west, west + width
+    data.cycles.latitude_min, data.cycles.latitude_max = south, south + height
+    #: end
+    #: lens
+    add_lens(data)
+    #: end
     data.clip_start, data.clip_end = max(1e-6, EXTENT * 1e-5), EXTENT * 4e6
     scene.camera = ob
 
@@ -369,6 +414,9 @@ def build(look, samples):
     if exact:
         exact_world(world)
         exact_settings(scene, lamps)
+        #: lens
+        scene.cycles.samples = samples
+        #: end
     else:
         artist_settings(scene, samples)
     return scene

@@ -62,7 +62,7 @@ def apparent_radius(o, center, radius):
     center = [sum(m * x for m, x in zip(row, (*center, 1.0))) for row in rows]
     distance = math.dist(center, CAMERA["eye"]) - radius
     if CAMERA["type"] == "ORTHO":
-        distance = 1.0
+        distance = 1.0  # half_height is an angle in a panorama: of small ones as good as its tangent
     return min(1.0, radius / (2 * CAMERA["half_height"] * max(distance, 1e-3 * radius))) * SIZE[1]
 
 

@@ -30,7 +30,13 @@ def arguments():
     parser.add_argument("--look", choices=("exact", "artist"), default="exact",
                         help="exact: pixel for pixel what scc draws, one sample at each pixel's centre; "
                              "artist: Principled materials and soft lamps to work on")
-    parser.add_argument("--samples", type=positive, default=64, help="per pixel, of the artist look; default: 64")
+    #: lens
+    samples = "per pixel, through as many points of the lens; default: 64"
+    #: end
+    #: pinhole
+    samples = "per pixel, of the artist look; default: 64"
+    #: end
+    parser.add_argument("--samples", type=positive, default=64, help=samples)
     return parser.parse_args(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else [])
 
 

@@ -328,7 +328,7 @@ def plane_by_pixel(o):
     """Position = numerator(column, row) / denominator(column, row); each 3 x 3, a row per coordinate: (1, column, row)."""
     eye, right, up, back = (np.array(CAMERA[k]) for k in ("eye", "right", "up", "back"))
     normal, offset = world_plane(o)
-    half, (shift_x, shift_y), (width, height) = CAMERA["half_height"], CAMERA["shift"], SIZE
+    half, (shift_x, shift_y), (width, height) = CAMERA["half_height"], window_shift(), SIZE
     # In units of half the height: x = (2 column + 1 - width) / height + 2 shift; rows count from the bottom.
     x = np.array(((1 - width) / height + 2 * shift_x, 2 / height, 0.0))
     y = np.array(((1 - height) / height + 2 * shift_y, 0.0, 2 / height))

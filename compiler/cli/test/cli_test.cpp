@@ -36,6 +36,8 @@ TEST_F(CommandLine, UsageMistakesExitWith2) {
                             {"render", "s.scn", "-o", "a.png", "--size", "640"},
                             {"render", "s.scn", "-o", "a.png", "--size", "0x5"},
                             {"render", "s.scn", "-o", "a.png", "--samples", "5"},
+                            {"render", "s.scn", "-o", "a.png", "--samples", "4097"},
+                            {"render", "s.scn", "-o", "a.png", "--filter", "tent"},
                             {"render", "s.scn", "-o", "a.png", "--crop", "5,5,1,1"},
                             {"render", "s.scn", "-o", "a.png", "--crop", "0,0,5000,10"},
                             {"render", "s.scn", "-o", "a.png", "--bits", "12"},

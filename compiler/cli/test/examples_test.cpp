@@ -1,6 +1,9 @@
 #include "compiler/cli/test/support.h"
+#include "runtime/host/read_image.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 /// Every example, end to end. A new example is a row here.
 namespace scc::cli::test {
@@ -21,9 +24,10 @@ protected:
 };
 
 // Blender has no unbounded quadrics, and no exact normals on tori that are parts of solids; spectra take it
-// 27 pictures, which is too long here. Neither glass nor solids with meshes in them are
-// written for it. The built programs draw the generic pictures bit for bit, as another test shows; that
-// `validate` runs them is shown once.
+// 27 pictures, which is too long here. Neither glass nor solids with meshes in them are written for it. The
+// built programs draw the generic pictures bit for bit, as another test shows; that `validate` runs them is
+// shown once. A lens is compared in tests of its own, with many samples, and a zone plate asks for more digits
+// than Blender has.
 INSTANTIATE_TEST_SUITE_P(All, Examples,
                          testing::Values(Example{"lecture", "pov,blender,native"},
                                          Example{"mesh", "pov,blender"}, Example{"transforms", "pov,blender"},
@@ -34,7 +38,9 @@ INSTANTIATE_TEST_SUITE_P(All, Examples,
                                          Example{"textures", "pov,blender"}, Example{"csg", "pov,blender"},
                                          Example{"cutaway", "pov", false}, Example{"glass", "pov", false},
                                          Example{"implicit", "pov,blender"},
-                                         Example{"lattice", "pov,blender"}, Example{"spectra", "pov"}),
+                                         Example{"lattice", "pov,blender"}, Example{"spectra", "pov"},
+                                         Example{"panorama", "pov,blender"}, Example{"lens", "native"},
+                                         Example{"zone_plate", "pov", false}),
                          [](const auto& row) { return std::string(row.param.name); });
 
 TEST_P(Examples, CheckWithoutAWarning) {
@@ -72,6 +78,47 @@ TEST_P(Examples, AreExportedWholeOrNotAtAll) {
     const bool whole = GetParam().whole;
     EXPECT_EQ(scc({"export", "blender", scene(), "-o", "s.py"}).code, whole ? 0 : 1);
     EXPECT_EQ(exists("s.py"), whole);
+}
+
+TEST_F(CommandLine, ExportsLeaveOutNeitherLensesNorFiltersUnasked) {
+    EXPECT_EQ(scc({"export", "pov", example("lens.scn"), "-o", "s.pov"}).code, 1);
+    EXPECT_EQ(scc({"export", "pov", example("zone_plate.scn"), "-o", "s.pov"}).code, 1);
+    EXPECT_FALSE(exists("s.pov"));
+    EXPECT_TRUE(scc({"export", "pov", example("zone_plate.scn"), "-o", "s.pov", "--allow-drop"}).ok());
+}
+
+/// Where a zone plate's rings are finer than two pixels, the right answer is their mean: what differs from it
+/// is at false frequencies. The figures stand in the README.
+TEST_F(CommandLine, ZonePlatesShowWhatSamplersAndFiltersLeaveOfFalseRings) {
+    struct Row {
+        const char *samples, *sampler, *filter;
+        double deviation; ///< from the mean, root mean square
+    };
+    for (const Row& row :
+         {Row{"1", "grid", "box", 0.354}, Row{"16", "grid", "box", 0.0733},
+          Row{"16", "low_discrepancy", "box", 0.0740}, Row{"16", "grid", "mitchell", 0.0188},
+          Row{"16", "low_discrepancy", "mitchell", 0.0294}, Row{"16", "grid", "gaussian", 0.0146},
+          Row{"16", "low_discrepancy", "gaussian", 0.0240}, Row{"16", "grid", "blackman_harris", 0.0258},
+          Row{"16", "low_discrepancy", "blackman_harris", 0.0341}}) {
+        ASSERT_TRUE(scc({"render", example("zone_plate.scn"), "-o", "plate.pfm", "-D",
+                         std::string("samples=") + row.samples, "-D", std::string("sampler=") + row.sampler,
+                         "--filter", row.filter})
+                        .ok());
+        const runtime::Image image = host::read_image(path("plate.pfm"));
+        double squares = 0;
+        int count = 0;
+        for (int y = 0; y < image.height; ++y) {
+            for (int x = 0; x < image.width; ++x) {
+                const double rings = 1.5 * std::hypot((x + 0.5) / 128 - 1, (y + 0.5) / 128 - 1); // per pixel
+                if (rings > 0.6 && rings < 1.5) {
+                    squares += std::pow(double{image.at(x, y)[0]} - 0.5, 2);
+                    ++count;
+                }
+            }
+        }
+        EXPECT_NEAR(std::sqrt(squares / count), row.deviation, 0.02 * row.deviation)
+            << row.samples << " " << row.sampler << " " << row.filter;
+    }
 }
 
 /// Too many objects for the other renderers; see Arrays for what they get.

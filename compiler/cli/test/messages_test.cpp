@@ -51,6 +51,8 @@ const std::map<Diag, Case>& cases() {
         {Diag::impossible_camera, {"sphere { }\nperspective_camera { eye = (0, 1, 0) }\n"}},
         {Diag::impossible_light,
          {"sphere { }\ndirectional_light { direction = (0, 1, 0), towards = (0, 1, 0) }\n"}},
+        {Diag::impossible_sampling,
+         {"sphere { }\nrender { method = ray { samples = 64, adaptive = 0.01, sampler = \"grid\" } }\n"}},
         {Diag::unknown_camera, {"let left = perspective_camera { }\nleft\nrender { camera = \"right\" }\n"}},
         {Diag::missing_asset, {"mesh { file = \"none.obj\" }\n"}},
         {Diag::asset_outside, {"mesh { file = \"/etc/passwd\" }\n"}},
@@ -80,7 +82,7 @@ const std::map<Diag, Case>& cases() {
          {"sphere { center = (frame, 0, 0) }\nrender { frames = 2..5 }\n",
           {"build", "s.scn", "-o", "s.ir", "--emit", "ir"}}},
         {Diag::raster_skipped, {"sphere { }\nrender { method = raster { } }\n"}},
-        {Diag::unsupported_setting, {"sphere { }\nrender { sampling = \"corner\" }\n"}},
+        {Diag::unsupported_setting, {"union {\n  sphere { }\n  mesh { file = \"plain.obj\" }\n}\n"}},
         {Diag::not_exportable, {tiny, export_blender}},
         {Diag::dropped, {tiny, export_with_drop}},
     };

@@ -59,6 +59,8 @@ constexpr Feature features[] = {
     {"Scene::images", "let q = image { file = \"i.png\" }\n"
                       "sphere { material = phong { diffuse = fn(s: surface) = q(s.uv) } }\n"},
     {"Scene::directional_lights", "directional_light { direction = (0, -1, 0) }\n"},
+    {"FreePainter", "render { method = ray { filter = \"mitchell\" } }\n"},
+    {"TilePainter::bend", "let c = perspective_camera { aperture = 0.1 }\nc\nrender { camera = \"c\" }\n"},
     {"Scene::bare_sphere",
      "sphere { center = (0, 2, 0), material = phong { reflect = rgb(0.5, 0.5, 0.5) } }\n"},
 };

@@ -40,7 +40,7 @@ struct Scene : SceneBase<double> {
     }};
     static constexpr Rgb<R> ambient{0.2, 0.2, 0.2};
     static constexpr Rgb<R> background{0.014443843596092545, 0.021219010376003555, 0.0295568344378088};
-    static constexpr Camera<R> camera{Projection::perspective, {4.0, 3.0, 6.0}, {0.8320502943378436, 0.0, -0.554700196225229}, {-0.1816980905357149, 0.9448300707857176, -0.27254713580357237}, {0.5240974256643347, 0.3275608910402092, 0.7861461384965021}, 0.36397023426620234, 0.0, 0.0};
+    static constexpr Camera<R> camera{Projection::perspective, {4.0, 3.0, 6.0}, {0.8320502943378436, 0.0, -0.554700196225229}, {-0.1816980905357149, 0.9448300707857176, -0.27254713580357237}, {0.5240974256643347, 0.3275608910402092, 0.7861461384965021}, 0.36397023426620234, 0.0, 0.0, 0.0, 0.0, 7.632168761236874};
     template <class L>
     Rgb<L> color_function(std::int32_t index, const SurfacePoint<L>& s) const {
         switch (index) {
@@ -78,5 +78,5 @@ RenderResult draw(const RenderRequest& request, Image& image) {
 
 int main(int argc, char** argv) {
     static constexpr const char* features[] = {"plane", "cylinder", "sphere (transformed)", "point_lights", "directional_lights", "attenuation", "specular", "reflection", "two_sided", "functions", "shadows", "perspective", nullptr};
-    return scc::host::run_program({.precision = "double", .isa = scc::host::compiled_isa, .features = features, .load = load, .draw = draw, .scene = "lecture", .settings = {640, 480, 4, 4, true}}, argc, argv);
+    return scc::host::run_program({.precision = "double", .isa = scc::host::compiled_isa, .features = features, .load = load, .draw = draw, .scene = "lecture", .settings = {640, 480, 16, 4, true, PixelPoint::center, Sampler::grid, PixelFilter::box, 0.0}}, argc, argv);
 }

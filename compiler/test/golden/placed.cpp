@@ -35,7 +35,7 @@ struct Scene : SceneBase<double> {
     }};
     static constexpr Rgb<R> ambient{0.1, 0.1, 0.1};
     static constexpr Rgb<R> background{0.0, 0.0, 0.0};
-    static constexpr Camera<R> camera{Projection::orthographic, {3.0, 4.0, 5.0}, {0.8574929257125442, 0.0, -0.5144957554275266}, {-0.2910427500435996, 0.824621125123532, -0.48507125007266594}, {0.4242640687119285, 0.565685424949238, 0.7071067811865475}, 3.0, 0.1, -0.05};
+    static constexpr Camera<R> camera{Projection::orthographic, {3.0, 4.0, 5.0}, {0.8574929257125442, 0.0, -0.5144957554275266}, {-0.2910427500435996, 0.824621125123532, -0.48507125007266594}, {0.4242640687119285, 0.565685424949238, 0.7071067811865475}, 3.0, 0.1, -0.05, 0.0, 0.0, 1.0};
     template <class L>
     Rgb<L> color_function(std::int32_t index, const SurfacePoint<L>& s) const {
         switch (index) {
@@ -95,5 +95,5 @@ RenderResult draw(const RenderRequest& request, Image& image) {
 
 int main(int argc, char** argv) {
     static constexpr const char* features[] = {"disc", "triangle", "sphere (transformed)", "point_lights", "attenuation", "separate_specular", "specular", "functions", "smooth_normals", "orthographic", nullptr};
-    return scc::host::run_program({.precision = "double", .isa = scc::host::compiled_isa, .features = features, .load = load, .draw = draw, .scene = "placed", .settings = {320, 240, 1, 0, false}}, argc, argv);
+    return scc::host::run_program({.precision = "double", .isa = scc::host::compiled_isa, .features = features, .load = load, .draw = draw, .scene = "placed", .settings = {320, 240, 1, 0, false, PixelPoint::center, Sampler::grid, PixelFilter::box, 0.0}}, argc, argv);
 }
