@@ -1,9 +1,9 @@
 #pragma once
 
 #include "runtime/accel/occluders.h"
+#include "runtime/encounter.h"
 #include "runtime/illumination.h"
 #include "runtime/media.h"
-#include "runtime/raycast.h"
 #include "runtime/render_request.h"
 
 #include <algorithm>
@@ -40,16 +40,6 @@ template <class L>
 MaskOf<L> is_black(const Rgb<L>& c) {
     return (c.r == 0) & (c.g == 0) & (c.b == 0);
 }
-
-/// Where rays met surfaces, as their shading needs it.
-template <class L>
-struct Encounter {
-    Surface<L> surface;
-    SurfacePoint<L> point; ///< only where the scene has functions
-    Vec3<L> normal;        ///< m: shading normal that faces the viewer
-    IndexOf<L> material;
-    IndexOf<L> body; ///< Tag::id of what the surface encloses; only with refraction
-};
 
 /// A material's fields at a point.
 template <class L>
@@ -198,59 +188,14 @@ private:
         Pack& operator[](std::size_t i) { return list[i]; }
     };
 
-    /// Fills in `pack.at`. The material is chosen by the side of the geometric normal that the ray is on. The
-    /// shading normal is turned to the viewer by its own sign, so that an interpolated one that already
-    /// points away at a silhouette shades as in POV-Ray.
+    /// Fills in `pack.at`.
     void meet(const Ray<L>& ray, const Hit<L>& hit, Pack& pack) const {
-        Encounter<L>& at = pack.at;
-        bool first = true;
-        for_each_primitive(
-            scene_, hit, pack.active,
-            [&](const auto& primitive, const Mask& here, [[maybe_unused]] const auto inverted,
-                [[maybe_unused]] std::uint32_t body) {
-                Vec3<L> object_point;
-                Surface<L> surface = surface_of(scene_, primitive, ray, hit.shape, here, object_point);
-                if constexpr (uses_csg(S::traits)) {
-                    surface = inverted ? turned_over(surface) : surface;
-                }
-                const Mask back = dot(surface.normal, ray.dir) > 0;
-                const Vec3<L> normal = choose(dot(surface.shading_normal, ray.dir) > 0,
-                                              -surface.shading_normal, surface.shading_normal);
-                const Sides& sides = primitive.tag.sides;
-                using Index = IndexOf<L>;
-                const Index material = S::traits.two_sided
-                                           ? choose(back, Index(sides.back), Index(sides.front))
-                                           : Index(sides.front);
-                // Value by value, since whole structures would be copied through memory.
-                put(first, here, surface.point, at.surface.point);
-                put(first, here, surface.error, at.surface.error);
-                put(first, here, surface.normal, at.surface.normal);
-                put(first, here, normal, at.normal);
-                put(first, here, material, at.material);
-                if constexpr (S::traits.refraction) {
-                    put(first, here, Index(body), at.body);
-                }
-                if constexpr (S::traits.functions) {
-                    put(first, here, object_point, at.point.p);
-                }
-                if constexpr (S::traits.uv) {
-                    if (scene_.reads_uv) {
-                        put(first, here, uv_of(scene_, primitive, ray, hit.shape, here, object_point),
-                            at.point.uv);
-                    }
-                }
-                first = false;
-            });
-        if constexpr (S::traits.functions) {
-            at.point.world = at.surface.point;
-            at.point.n = at.surface.normal;
+        constexpr EncounterParts parts{S::traits.refraction, S::traits.functions, S::traits.uv};
+        bool reads_uv = false;
+        if constexpr (S::traits.uv) {
+            reads_uv = scene_.reads_uv;
         }
-    }
-    /// What the first group of lanes has may stand in the others too, whose turn comes later or which take
-    /// no part.
-    template <class T>
-    static void put(bool first, const Mask& here, const T& value, T& to) {
-        to = first ? value : choose(here, value, to);
+        detail::meet<parts>(scene_, ray, hit, pack.active, reads_uv, pack.at);
     }
 
     Rgb<L> value(const Varying<Rgb<R>>& field, const SurfacePoint<L>& point) const {

@@ -35,6 +35,7 @@ struct Options {
     std::optional<compiler::Precision> chosen_precision; ///< nothing: auto
 
     NativeOptions native;
+    bool draws_aovs = false;
     std::string report; ///< "text", "json" or empty
 };
 
@@ -68,7 +69,7 @@ void emit_source(const Loaded& loaded, const Options& options) {
         compiler::Identifiers("scene_").make(fs::path(options.output).stem().string()) + ".values";
     const compiler::CppProgram program =
         emit_cpp(loaded.scene, choose_precision(loaded.scene, options).precision, compiler::Numbers::in_code,
-                 values_name);
+                 values_name, nullptr, options.draws_aovs);
     if (!program.values.empty()) {
         if (options.output == "-") {
             throw host::UsageError(
@@ -89,7 +90,7 @@ void emit_program(const Loaded& loaded, const Options& options) {
         parameters = parameters_of(loaded, options.scene);
     }
     compile_native(emit_cpp(loaded.scene, precision.precision, compiler::Numbers::as_values, "",
-                            parameters ? &*parameters : nullptr),
+                            parameters ? &*parameters : nullptr, options.draws_aovs),
                    options.native, options.output);
     if (!options.report.empty()) {
         const ReportKind kind = options.report == "json" ? ReportKind::json : ReportKind::text;
@@ -162,6 +163,8 @@ void add_build(CLI::App& app, Run& selected) {
         ->add_flag("--report{text}", options->report,
                    "say what the program holds and leaves out, and what that saves; --report=json: as JSON")
         ->check(CLI::IsMember({"text", "json"}));
+    command->add_flag("--aov", options->draws_aovs,
+                      "the program can draw AOVs: it takes `--aov`, as `scc render` does");
     command->add_flag_callback(
         "--no-cache",
         [options] {
