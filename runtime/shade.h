@@ -59,7 +59,13 @@ inline constexpr R least_weight = R(1e-9);
 template <class R>
 inline constexpr R before_the_light = 1 - 32 * std::numeric_limits<R>::epsilon();
 
-template <SceneModel S, class L>
+/// What a Shader tells of each ray: nothing. One that `observes` has the functions that the Shader calls (see
+/// explain_pixel.h); its lanes are one, and its scene has everything.
+struct Unobserved {
+    static constexpr bool observes = false;
+};
+
+template <SceneModel S, class L, class Observer = Unobserved>
 class Shader {
     static constexpr int N = packs_together<S, L>;
 
@@ -67,8 +73,9 @@ public:
     using R = typename S::Real;
     using Mask = MaskOf<L>;
 
-    Shader(const S& scene, const RenderSettings& settings, RayCounts& counts)
-        : scene_(scene), depth_(settings.depth), shadows_(settings.shadows), counts_(counts) {
+    Shader(const S& scene, const RenderSettings& settings, RayCounts& counts, Observer observer = {})
+        : scene_(scene), depth_(settings.depth), shadows_(settings.shadows), counts_(counts),
+          observer_(observer) {
         if constexpr (S::traits.transmission) {
             for (const Phong<R>& material : scene.materials) {
                 transmits_ = transmits_ || lets_through(material);
@@ -116,6 +123,7 @@ public:
             for (std::size_t i = 0; i < packs.count; ++i) {
                 rays[i].t_max = choose(packs[i].active, rays[i].t_max, -infinity<L>());
             }
+            observe([&](auto& o) { o.ray(rays[0], packs[0].weight, packs[0].bounces); });
             closest_hits<N, S, L>(scene_, rays, apex, hits, candidates);
             bool goes_on = false;
             for (std::size_t i = 0; i < packs.count; ++i) {
@@ -127,6 +135,7 @@ public:
                     goes_on = true;
                     meet(rays[i], hits[i], pack);
                     look_up(pack);
+                    observe([&](auto& o) { o.met(hits[i], pack.at, pack.material); });
                 }
             }
             if (goes_on) {
@@ -317,6 +326,7 @@ private:
                 reflected = choose(total, Rgb<L>{L(1), L(1), L(1)}, reflected);
                 through = through & !total & !(bent & (bounces >= L(static_cast<R>(depth_))));
                 counts_.refracted += count_lanes(bent & through);
+                observe([&](auto& o) { o.crosses(from, to, share, total); });
                 dir = choose(bent, refraction.dir, dir);
                 bounces = choose(bent, bounces + 1, bounces);
             }
@@ -328,6 +338,7 @@ private:
         mirrored = mirrored & !(both & is_slight(mirrored_weight));
         through = through & !(both & is_slight(through_weight));
         counts_.reflected += count_lanes(mirrored);
+        observe([&](auto& o) { o.goes_on(reflected, mirrored, transmitted, through); });
         Branch branch{Mask(mirrored & through), mirrored_weight, pack.bounces + 1, pack.media, {}, {}};
         if (any(mirrored)) {
             branch.dir = reflect(ray.dir, pack.at.normal);
@@ -369,6 +380,7 @@ private:
             pack.media = branch.media;
             ray = {branch.org, branch.dir, spawned_t_min<L>(), infinity<L>()};
             waiting.pop_back();
+            observe([&](auto& o) { o.takes_up(); });
         }
         return any(pack.active);
     }
@@ -519,6 +531,7 @@ private:
             }
             any_lit = any_lit || any(lit[i]);
         }
+        observe([&](auto& o) { o.light(light, seen[0], cosine[0], lit[0]); });
         if (!any_lit) {
             return;
         }
@@ -535,6 +548,7 @@ private:
              const Mask& lit) const {
         const Reflectances<L>& material = pack.material;
         Rgb<L> reflected = lanes<L>(light.diffuse) * material.diffuse * cosine;
+        observe([&](auto& o) { o.diffuse(reflected); });
         if constexpr (S::traits.specular) {
             const Mask highlit = lit & !is_black(material.specular);
             if (any(highlit)) {
@@ -542,6 +556,7 @@ private:
                 const L strength =
                     highlight(pack.at.normal, seen.to_light, -normalize(dir), material.shininess);
                 reflected = choose(highlit, reflected + color * material.specular * strength, reflected);
+                observe([&](auto& o) { o.specular(strength, color * material.specular * strength); });
             }
         }
         if constexpr (S::traits.attenuation && requires { light.kc; }) {
@@ -555,6 +570,7 @@ private:
         if constexpr (S::traits.transmission && S::traits.shadows) {
             reflected = reflected * pack.filter;
         }
+        observe([&](auto& o) { o.adds_light(reflected); });
         pack.light = choose(lit, pack.light + reflected, pack.light);
     }
 
@@ -594,6 +610,7 @@ private:
                 const Candidates candidates = occluders(light, index).before(rays[0], lit[0]);
                 blocked[0] = any_hit(scene_, rays[0], candidates);
             }
+            observe([&](auto& o) { o.feeler(feeler(light, packs[0].at.surface), blocked[0]); });
             for (std::size_t i = 0; i < packs.count; ++i) {
                 lit[i] = lit[i] & !blocked[i];
             }
@@ -625,8 +642,10 @@ private:
             goes_on = false;
             for (std::size_t i = 0; i < packs.count; ++i) {
                 open[i] = open[i] & (hits[i].kind != IndexOf<L>(no_kind));
+                observe([&](auto& o) { o.feeler(rays[i], open[i]); });
                 if (any(open[i])) {
                     pass(light, rays[i], hits[i], open[i], packs[i].filter);
+                    observe([&](auto& o) { o.filtered(hits[i], packs[i].filter); });
                     lit[i] = lit[i] & !is_black(packs[i].filter);
                     open[i] = open[i] & lit[i];
                     goes_on = goes_on || any(open[i]);
@@ -669,10 +688,19 @@ private:
         return {start_off(surface, to_light), to_light, spawned_t_min<L>(), infinity<L>()};
     }
 
+    /// tell(observer), where there is one.
+    template <class Tell>
+    void observe([[maybe_unused]] Tell&& tell) const {
+        if constexpr (Observer::observes) {
+            tell(observer_);
+        }
+    }
+
     const S& scene_;
     int depth_;
     bool shadows_;
     RayCounts& counts_;
+    [[no_unique_address]] mutable Observer observer_;
     bool transmits_ = false; ///< some material lets light through
     bool refracts_ = false;  ///< and has an index of refraction
     Media<R> media_;

@@ -191,7 +191,8 @@ public:
     Emitter(const ir::Scene& scene, Precision precision, Numbers numbers, const std::string& values_name,
             const ProgramParameters* parameters, bool draws_aovs)
         : scene_(scene), precision_(precision), in_code_(numbers == Numbers::in_code),
-          any_scene_(numbers == Numbers::of_any_scene), values_name_(values_name), parameters_(parameters), draws_aovs_(draws_aovs) {}
+          any_scene_(numbers == Numbers::of_any_scene), values_name_(values_name), parameters_(parameters),
+          draws_aovs_(draws_aovs) {}
 
     CppProgram emit();
 

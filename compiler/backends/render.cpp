@@ -216,8 +216,8 @@ host::Drawable make_drawable_for_8_bits(const ir::Scene& scene, const runtime::R
 
     const Stopwatch watch;
     Renderer full = make_renderer<double>(scene, meshes, kernels, options);
-    const PrecisionTrial trial =
-        try_float(single.render, full.render, settings, {.coherent = !meshes->empty(), .threads = options.threads});
+    const PrecisionTrial trial = try_float(single.render, full.render, settings,
+                                           {.coherent = !meshes->empty(), .threads = options.threads});
     drawable.precision = name_of(trial.passed ? Precision::single : Precision::full);
     drawable.precision_reason = trial.reason;
     give(drawable, std::move(trial.passed ? single : full));

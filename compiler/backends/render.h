@@ -7,8 +7,8 @@
 
 namespace scc::compiler {
 
-/// The scene in the generic renderer's tables, hierarchies built, ready to be drawn in this process as long as
-/// `scene` lives.
+/// The scene in the generic renderer's tables, hierarchies built, ready to be drawn in this process as long
+/// as `scene` lives.
 host::Drawable make_drawable(const ir::Scene& scene, Precision precision,
                              const runtime::BuildOptions& options = {});
 

@@ -1,16 +1,14 @@
 #include "compiler/backends/cpp.h"
-#include "compiler/backends/render.h"
 #include "compiler/cli/build_report.h"
 #include "compiler/cli/commands.h"
 #include "compiler/cli/native.h"
+#include "compiler/cli/needs.h"
 #include "compiler/ir/print.h"
 #include "compiler/program_scene.h"
 #include "compiler/writer.h"
 #include "lang/dump.h"
 #include "runtime/host/file.h"
-#include "runtime/host/image_file.h"
 #include "runtime/host/options.h"
-#include "runtime/host/parallel.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -53,15 +51,9 @@ Stage stage_for(Emit emit) {
     return Stage::scene;
 }
 
-/// Float under `auto` needs to be told that 8 bits of each value will do: by the scene's own file.
 compiler::PrecisionChoice choose_precision(const compiler::ir::Scene& scene, const Options& options) {
-    if (options.chosen_precision) {
-        return {*options.chosen_precision, "asked for"};
-    }
-    if (!host::keeps_8_bits(scene.file, 8)) {
-        return {compiler::Precision::full, "the scene names no `file` that keeps but 8 bits of each value"};
-    }
-    return compiler::choose_precision_for_8_bits(scene, scene.settings, {.threads = host::core_count()});
+    return options.chosen_precision ? compiler::PrecisionChoice{*options.chosen_precision, "asked for"}
+                                    : program_precision(scene);
 }
 
 void emit_source(const Loaded& loaded, const Options& options) {

@@ -61,8 +61,7 @@ struct Spent {
 };
 
 std::string statistics(const Drawable& drawable, const runtime::RenderRequest& request,
-                       const runtime::RenderResult& result, const runtime::Image& image,
-                       const Spent& spent) {
+                       const runtime::RenderResult& result, const runtime::Image& image, const Spent& spent) {
     std::vector<std::string> times;
     double total = spent.render_ms + spent.write_ms;
     for (const std::string_view stage : {"parse", "check", "lower", "passes", "accel", "precision"}) {
@@ -131,11 +130,10 @@ int draw(const Drawable& drawable, const RenderOptions& options) {
             draw_it();
             return milliseconds_since(start);
         };
-        spent.render_ms =
-            draw_with_progress("render ", [&] { result = drawable.render(request, image); });
+        spent.render_ms = draw_with_progress("render ", [&] { result = drawable.render(request, image); });
         if (options.aovs != 0 && result.complete) {
-            spent.aovs_ms = draw_with_progress(
-                "AOVs of ", [&] { result.complete = drawable.draw_aovs(request, aovs); });
+            spent.aovs_ms =
+                draw_with_progress("AOVs of ", [&] { result.complete = drawable.draw_aovs(request, aovs); });
         }
     }
     if (!result.complete) {

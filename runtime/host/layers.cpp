@@ -97,8 +97,8 @@ void add_layers(const runtime::AovImage& aovs, const SceneNames& names, ExrConte
     add("object.id", aovs.object);
     add("material.id", aovs.material);
     if (!aovs.object.empty()) {
-        content.texts.emplace_back(
-            "object.manifest", manifest(aovs.object, [&](std::uint32_t id) { return names.object(id); }));
+        content.texts.emplace_back("object.manifest",
+                                   manifest(aovs.object, [&](std::uint32_t id) { return names.object(id); }));
     }
     if (!aovs.material.empty()) {
         content.texts.emplace_back("material.manifest", manifest(aovs.material, [&](std::uint32_t index) {

@@ -209,8 +209,9 @@ bool take_render_option(Arguments& arguments, RenderOptions& options, bool draws
             continue;
         }
         if (row.aov && !draws_aovs) {
-            throw UsageError(std::string(row.name) +
-                             ": this program was made without AOVs; `scc build --aov` makes one that has them");
+            throw UsageError(
+                std::string(row.name) +
+                ": this program was made without AOVs; `scc build --aov` makes one that has them");
         }
         if (std::exchange(given[i], true)) {
             throw UsageError(std::string(row.name) + " is given twice");

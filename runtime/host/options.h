@@ -63,8 +63,8 @@ struct ProgramOptions {
 };
 
 /// A built program's command line. Nothing if it asked for `--help`, which then was printed with `purpose` at
-/// its head. `parameters` lists those that `-D` can set, a line each; without any there is no such option, nor
-/// is there `--aov` unless `draws_aovs`. Throws UsageError.
+/// its head. `parameters` lists those that `-D` can set, a line each; without any there is no such option,
+/// nor is there `--aov` unless `draws_aovs`. Throws UsageError.
 std::optional<ProgramOptions> parse_program_options(int argc, char** argv, const std::string& purpose,
                                                     const std::string& parameters, bool draws_aovs);
 

@@ -126,16 +126,16 @@ int run_program(const Program& program, int argc, char** argv) {
     try {
         std::optional<MappedFile> file;
         Opened opened = open(program, file);
-        const std::optional<ProgramOptions> options =
-            parse_program_options(argc, argv, purpose_of(opened), opened.parameters, program.draw_aovs != nullptr);
+        const std::optional<ProgramOptions> options = parse_program_options(
+            argc, argv, purpose_of(opened), opened.parameters, program.draw_aovs != nullptr);
         if (!options) {
             return exit_fine;
         }
         std::optional<AlignedBytes> redefined;
         if (!options->definitions.empty()) {
-            redefined.emplace(program.redefine({opened.source, program.structure, program.precision,
-                                                options->definitions, options->asset_paths,
-                                                program.draw_aovs != nullptr}));
+            redefined.emplace(
+                program.redefine({opened.source, program.structure, program.precision, options->definitions,
+                                  options->asset_paths, program.draw_aovs != nullptr}));
             opened = open_values(program, redefined->bytes());
         }
         const Drawable drawable = load(program, opened);

@@ -42,9 +42,9 @@ private:
     std::string name_at(std::uint64_t place) const { return object_names_.c_str() + place; }
 
     std::vector<Run> runs_;
-    std::string object_names_;                     ///< each ends with a zero
-    std::vector<std::uint64_t> material_places_;   ///< in their names
-    std::string material_names_;                   ///< likewise
+    std::string object_names_;                   ///< each ends with a zero
+    std::vector<std::uint64_t> material_places_; ///< in their names
+    std::string material_names_;                 ///< likewise
 };
 
 } // namespace scc::host
