@@ -111,9 +111,7 @@ constexpr auto rows = std::to_array<OptionRow>({
     {"--stats", nullptr, "FILE.json", "write times, ray counts and features as JSON; - for stdout", false,
      false, false, [](RenderOptions& options, const std::string& text) { options.stats = text; }},
     {"--aov", nullptr, "LIST",
-     "further layers of the .exr, of what each pixel's centre shows first: depth (distance), planar (along "
-     "the view), position, normal, uv, object, material; separated by commas",
-     false, false, true,
+     "further layers of the .exr: depth, planar, position, normal, uv, object, material", false, false, true,
      [](RenderOptions& options, const std::string& text) { options.aovs = parse_aovs(text); }},
 });
 
