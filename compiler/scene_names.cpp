@@ -53,4 +53,26 @@ host::SceneNames names_of(const ir::Scene& scene) {
     return names;
 }
 
+std::map<std::uint32_t, std::string> member_names_of(const ir::Scene& scene) {
+    std::map<std::uint32_t, std::string> names;
+    std::uint32_t id = 0;
+    ir::for_each_piece(
+        scene,
+        [&](const ir::Object& object) {
+            const std::uint32_t after = id + ids_of(scene, object);
+            if (const auto* solid = std::get_if<runtime::Csg<double>>(&object.shape)) {
+                ir::for_each_csg_node(scene, *solid, [&](const ir::CsgNode& node) {
+                    if (node.op == runtime::CsgOp::member) {
+                        names[++id] = scene.members[node.member].path;
+                    }
+                });
+            }
+            id = after;
+        },
+        [&](const ir::ObjectArray& array) {
+            id += static_cast<std::uint32_t>(array.columns.size() * array.rounds);
+        });
+    return names;
+}
+
 } // namespace scc::compiler

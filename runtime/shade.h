@@ -148,6 +148,7 @@ public:
                 Pack& pack = packs[i];
                 if (any(pack.active)) {
                     sums[i] = choose(pack.active, sums[i] + pack.weight * pack.light, sums[i]);
+                    observe([&](auto& o) { o.leaves(pack.light); });
                     if constexpr (S::traits.transmission) {
                         go_through(pack, rays[i], waiting_[i]);
                     } else if constexpr (S::traits.reflection) {
@@ -529,9 +530,9 @@ private:
             if constexpr (requires { light.cos_outer; }) {
                 lit[i] = lit[i] & (cone_cosine(light, seen[i].to_light) > L(light.cos_outer));
             }
+            observe([&](auto& o) { o.light(light, seen[i], cosine[i], lit[i]); });
             any_lit = any_lit || any(lit[i]);
         }
-        observe([&](auto& o) { o.light(light, seen[0], cosine[0], lit[0]); });
         if (!any_lit) {
             return;
         }
@@ -692,7 +693,7 @@ private:
     template <class Tell>
     void observe([[maybe_unused]] Tell&& tell) const {
         if constexpr (Observer::observes) {
-            tell(observer_);
+            observer_.tell(tell);
         }
     }
 

@@ -128,6 +128,44 @@ runtime::RenderResult render(OwnedScene<R>& owned, Kernel<R> kernel, const runti
     return render_bands(std::span<const runtime::BandGroup<R>>(bands.groups), request, image, draw_group);
 }
 
+void explain(const runtime::DynamicScene<float>& scene, const runtime::RenderRequest& request,
+             const PixelPlace& place, runtime::Explanation* to, runtime::Rgb<float>& pixel) {
+    scc_explain_pixel_float(scene, request, place.i, place.j, to, pixel);
+}
+void explain(const runtime::DynamicScene<double>& scene, const runtime::RenderRequest& request,
+             const PixelPlace& place, runtime::Explanation* to, runtime::Rgb<float>& pixel) {
+    scc_explain_pixel_double(scene, request, place.i, place.j, to, pixel);
+}
+
+template <class R>
+ExplainedPixel explain(const ir::Scene& scene, const runtime::RenderRequest& request,
+                       const PixelPlace& place) {
+    const runtime::BuildOptions options{.threads = request.threads};
+    const std::shared_ptr<OwnedScene<R>> owned = build<R>(scene, build_meshes(scene, options), options);
+    ExplainedPixel result;
+    const auto& groups = owned->bands.groups;
+    if (groups.empty()) {
+        explain(owned->scene, request, place, &result.how, result.pixel);
+    } else {
+        result.band = groups.size() / 2;
+        runtime::Image image(1, 1);
+        render_bands(std::span<const runtime::BandGroup<R>>(groups), request, image,
+                     [&](std::size_t group, const runtime::RenderRequest& one, runtime::Image& to) {
+                         owned->bands.give(group, owned->scene);
+                         runtime::Rgb<float> color;
+                         explain(owned->scene, one, place, group == result.band ? &result.how : nullptr,
+                                 color);
+                         to.pixels = {color.r, color.g, color.b};
+                         return runtime::RenderResult{};
+                     });
+        result.pixel = {image.pixels[0], image.pixels[1], image.pixels[2]};
+    }
+    runtime::Image image(1, 1);
+    render(*owned, choose_kernels().of(R{}), request, image);
+    result.rendered = {image.pixels[0], image.pixels[1], image.pixels[2]};
+    return result;
+}
+
 template <class R>
 Renderer make_renderer(const ir::Scene& scene, const std::shared_ptr<const Meshes>& meshes,
                        const KernelSet& kernels, const runtime::BuildOptions& options) {
@@ -233,6 +271,15 @@ PrecisionChoice choose_precision_for_8_bits(const ir::Scene& scene, const runtim
     const host::Drawable drawable = make_drawable_for_8_bits(scene, settings, options);
     const bool single = drawable.precision == name_of(Precision::single);
     return {single ? Precision::single : Precision::full, drawable.precision_reason};
+}
+
+ExplainedPixel explain_pixel(const ir::Scene& scene, Precision precision,
+                             const runtime::RenderSettings& settings, const PixelPlace& place) {
+    runtime::RenderRequest request;
+    request.settings = settings;
+    request.crop = {place.x, place.y, place.x + 1, place.y + 1};
+    return precision == Precision::single ? explain<float>(scene, request, place)
+                                          : explain<double>(scene, request, place);
 }
 
 } // namespace scc::compiler

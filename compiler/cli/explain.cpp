@@ -48,12 +48,12 @@ std::pair<int, int> place(const std::string& text, const char* option, const cha
 }
 
 int explain(const ExplainOptions& options) {
-    const int chapters = (options.needs ? 1 : 0) + (options.matrices ? 1 : 0);
+    const int chapters = (options.needs ? 1 : 0) + (options.matrices ? 1 : 0) + (options.pixel ? 1 : 0);
     if (chapters == 0) {
-        throw host::UsageError("there is nothing to explain: give `--matrices` or `--needs`");
+        throw host::UsageError("there is nothing to explain: give `--pixel X,Y`, `--matrices` or `--needs`");
     }
-    if (options.json && chapters > 1) {
-        throw host::UsageError("`--json` is of one of them: give `--matrices` or `--needs`");
+    if (options.json && (chapters > 1 || options.pixel)) {
+        throw host::UsageError("`--json` is of `--matrices` or `--needs`, one at a time");
     }
     std::string text;
     if (options.matrices) {
@@ -64,12 +64,17 @@ int explain(const ExplainOptions& options) {
         }
         text += explain_matrices(loaded, options);
     }
-    if (options.needs) {
+    if (options.needs || options.pixel) {
         const Loaded loaded = load(options.scene, Stage::scene);
         if (options.matrices ? loaded.diagnostics.has_errors() : !report(loaded)) {
             return host::exit_scene;
         }
-        text += (text.empty() ? "" : "\n") + explain_needs(loaded, options);
+        if (options.needs) {
+            text += (text.empty() ? "" : "\n") + explain_needs(loaded, options);
+        }
+        if (options.pixel) {
+            text += (text.empty() ? "" : "\n") + explain_pixel(loaded, options);
+        }
     }
     write_result("-", text);
     return host::exit_fine;

@@ -25,5 +25,7 @@ struct ExplainOptions {
 /// L1 to L4 and L6: of a scene that the passes have not run over.
 std::string explain_matrices(const Loaded& loaded, const ExplainOptions& options);
 std::string explain_needs(const Loaded& loaded, const ExplainOptions& options);
+/// L11 to L15 for one pixel. Throws host::UsageError for a pixel or sample that the picture does not have.
+std::string explain_pixel(const Loaded& loaded, const ExplainOptions& options);
 
 } // namespace scc::cli
