@@ -86,6 +86,26 @@ void add_explain(CLI::App& app, Run& selected) {
     auto options = std::make_shared<ExplainOptions>();
     CLI::App* command = app.add_subcommand("explain", "tell how a picture comes about");
     add_scene_options(*command, options->scene);
+    command
+        ->add_option_function<std::string>(
+            "--pixel",
+            [options](const std::string& text) {
+                options->pixel = place(text, "--pixel", "X,Y, two whole numbers from the top left corner");
+            },
+            "how this pixel came about: its ray, all that the ray passes, the light, mirrored and refracted "
+            "rays, and the sum")
+        ->type_name("X,Y");
+    command
+        ->add_option_function<std::string>(
+            "--sample",
+            [options](const std::string& text) {
+                options->sample = place(text, "--sample", "I,J, two whole numbers from the top left corner");
+            },
+            "for --pixel: which of its n x n samples; else the one at its centre, or next to it")
+        ->type_name("I,J");
+    add_precision_option(
+        *command, options->precision,
+        "for --pixel: of the arithmetic; auto (default): as for the file that the scene names");
     command->add_flag(
         "--matrices", options->matrices,
         "the model, view, projection and viewport matrices in both conventions, and one point on "

@@ -177,7 +177,7 @@ private:
              text(ray.t), ray.is_front ? "front" : "back", names_.material(ray.material));
         line(depth + 1, "point {}, exact within +- {}", text(ray.point), text(ray.error));
         line(depth + 1, "m = {}, the normal towards the viewer{}", text(ray.shading_normal),
-             std::abs(std::abs(dot(ray.normal, ray.shading_normal)) - 1) > 1e-9
+             length(cross(ray.normal, ray.shading_normal)) > 1e-5
                  ? fmt::format(" (interpolated; the surface's own is {})", text(ray.normal))
                  : "");
         line(depth + 1, "v = {}, towards the viewer", text(-normalize(ray.dir)));
