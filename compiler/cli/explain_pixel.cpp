@@ -34,6 +34,10 @@ constexpr std::size_t most_candidates = 24; ///< of a ray; the rest is counted
 std::string text(double v) {
     return fmt::format("{:.6g}", v);
 }
+/// As a further term of a sum.
+std::string term(double v) {
+    return fmt::format("{} {:.6g}", v < 0 ? "-" : "+", std::abs(v));
+}
 std::string text(const Vec3<double>& v) {
     return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z);
 }
@@ -331,9 +335,9 @@ std::string camera_text(const compiler::ir::Scene& scene, const runtime::RenderS
     const bool shifted = c.shift_x != 0 || c.shift_y != 0;
     out += fmt::format("  W (2c/nCols - 1){} = {}, H (2r/nRows - 1){} = {}\n", shifted ? " + shift" : "",
                        text(w), shifted ? " + shift" : "", text(h));
-    out += perspective ? fmt::format("  d = -n + {} u + {} v = {}\n", text(w), text(h),
-                                     text((c.u * w + c.v * h) - c.n))
-                       : fmt::format("  parallel: d = -n, from eye + {} u + {} v\n", text(w), text(h));
+    out += perspective
+               ? fmt::format("  d = -n {} u {} v = {}\n", term(w), term(h), text((c.u * w + c.v * h) - c.n))
+               : fmt::format("  parallel: d = -n, from eye {} u {} v\n", term(w), term(h));
     return out;
 }
 

@@ -280,12 +280,89 @@ TEST_F(Explain, TellsWhichLineAsksForWhat) {
     EXPECT_EQ(json["precision"].size(), 3U);
 }
 
+/// The red sphere, the mirror, and a shadow.
+TEST_F(Explain, TellsHowThePixelsOfTheLectureCameAbout) {
+    copy_example("lecture.scn");
+    const auto pixel = [&](const char* place) {
+        return explain(
+            {"lecture.scn", "--pixel", place, "--size", "64x48", "--samples", "1", "--precision", "double"});
+    };
+    expect_golden("lecture_sphere.txt", pixel("32,25"));
+    expect_golden("lecture_mirror.txt", pixel("46,23"));
+    expect_golden("lecture_shadow.txt", pixel("28,28"));
+}
+
+struct Count {
+    std::string text;
+    std::size_t of(const std::string& part) const {
+        std::size_t count = 0;
+        for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+            ++count;
+        }
+        return count;
+    }
+};
+
+/// What is told is what is drawn, and each hit is among the surfaces that the ray passes.
+TEST_F(Explain, AddsUpToWhatIsDrawn) {
+    std::vector<std::string> scenes;
+    for (const auto& entry : std::filesystem::directory_iterator(SCC_SOURCE_DIR "/examples")) {
+        if (entry.path().extension() == ".scn") {
+            scenes.push_back(entry.path().string());
+        }
+    }
+    std::sort(scenes.begin(), scenes.end());
+    EXPECT_GT(scenes.size(), 10U);
+    std::size_t mirrored = 0, through = 0, blocked = 0, filtered = 0, cut = 0;
+    int turn = 0;
+    for (const std::string& scene : scenes) {
+        for (const char* pixel : {"40,30", "31,35", "55,38"}) {
+            const bool single = ++turn % 3 == 0;
+            const Count told{
+                explain({scene, "--pixel", pixel, "--size", "80x60", "--samples", turn % 2 == 0 ? "1" : "4",
+                         "--precision", single ? "float" : "double"})};
+            EXPECT_EQ(told.of("the renderer draws the same, to the bit"), 1U) << told.text;
+            if (told.of(" more\n") == 0) {
+                EXPECT_EQ(told.of("  meets "), told.of("the nearest: this is seen")) << told.text;
+            }
+            EXPECT_EQ(told.of("t = inf"), 0U) << told.text;
+            mirrored += told.of("MIRRORED RAY");
+            through += told.of("RAY THROUGH");
+            blocked += told.of("no diffuse, no specular");
+            filtered += told.of("of the light\n");
+            cut += told.of("no surface of the solid");
+        }
+    }
+    for (const std::size_t count : {mirrored, through, blocked, filtered, cut}) {
+        EXPECT_GT(count, 2U);
+    }
+}
+
+TEST_F(Explain, TellsTheSampleThatIsAskedFor) {
+    write("s.scn", small_scene);
+    const auto told = [&](Strings more) {
+        more.insert(more.begin(), {"s.scn", "--pixel", "5,7", "--size", "20x15", "--samples", "9"});
+        return Count{explain(more)};
+    };
+    EXPECT_EQ(told({}).of("sample 1,1 of 3 x 3"), 1U);
+    EXPECT_EQ(told({}).of("c = 5.5, r = 7.5"), 1U);
+    const Count corner = told({"--sample", "2,0"});
+    EXPECT_EQ(corner.of("sample 2,0 of 3 x 3"), 1U);
+    EXPECT_EQ(corner.of("c = 5.83333, r = 7.83333"), 1U) << corner.text;
+    EXPECT_EQ(corner.of("to the bit"), 1U);
+}
+
 TEST_F(Explain, SaysWhatItCannotExplain) {
     write("s.scn", small_scene);
     EXPECT_EQ(scc({"explain", "s.scn"}).code, 2);
     EXPECT_EQ(scc({"explain", "s.scn", "--matrices", "--needs", "--json"}).code, 2);
     EXPECT_EQ(scc({"explain", "s.scn", "--matrices", "--point", "1,2"}).code, 2);
     EXPECT_EQ(scc({"explain", "none.scn", "--matrices"}).code, 3);
+    for (const char* pixel : {"5", "5,", "-1,2", "a,b", "800,0", "0,600", "1,2,3", "1.5,2"}) {
+        EXPECT_EQ(scc({"explain", "s.scn", "--pixel", pixel}).code, 2) << pixel;
+    }
+    EXPECT_EQ(scc({"explain", "s.scn", "--pixel", "1,1", "--sample", "1,0"}).code, 2);
+    EXPECT_EQ(scc({"explain", "s.scn", "--pixel", "1,1", "--json"}).code, 2);
     write("s.scn", "sphere { radius = -1 }\n");
     EXPECT_EQ(scc({"explain", "s.scn", "--matrices"}).code, 1);
     EXPECT_EQ(scc({"explain", "s.scn", "--needs"}).code, 1);
