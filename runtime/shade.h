@@ -123,7 +123,9 @@ public:
             for (std::size_t i = 0; i < packs.count; ++i) {
                 rays[i].t_max = choose(packs[i].active, rays[i].t_max, -infinity<L>());
             }
-            observe([&](auto& o) { o.ray(rays[0], packs[0].weight, packs[0].bounces); });
+            if constexpr (Observer::observes) {
+                observer_.tell([&](auto& o) { o.ray(rays[0], packs[0].weight, packs[0].bounces); });
+            }
             closest_hits<N, S, L>(scene_, rays, apex, hits, candidates);
             bool goes_on = false;
             for (std::size_t i = 0; i < packs.count; ++i) {
@@ -135,7 +137,9 @@ public:
                     goes_on = true;
                     meet(rays[i], hits[i], pack);
                     look_up(pack);
-                    observe([&](auto& o) { o.met(hits[i], pack.at, pack.material); });
+                    if constexpr (Observer::observes) {
+                        observer_.tell([&](auto& o) { o.met(hits[i], pack.at, pack.material); });
+                    }
                 }
             }
             if (goes_on) {
@@ -148,7 +152,9 @@ public:
                 Pack& pack = packs[i];
                 if (any(pack.active)) {
                     sums[i] = choose(pack.active, sums[i] + pack.weight * pack.light, sums[i]);
-                    observe([&](auto& o) { o.leaves(pack.light); });
+                    if constexpr (Observer::observes) {
+                        observer_.tell([&](auto& o) { o.leaves(pack.light); });
+                    }
                     if constexpr (S::traits.transmission) {
                         go_through(pack, rays[i], waiting_[i]);
                     } else if constexpr (S::traits.reflection) {
@@ -327,7 +333,9 @@ private:
                 reflected = choose(total, Rgb<L>{L(1), L(1), L(1)}, reflected);
                 through = through & !total & !(bent & (bounces >= L(static_cast<R>(depth_))));
                 counts_.refracted += count_lanes(bent & through);
-                observe([&](auto& o) { o.crosses(from, to, share, total); });
+                if constexpr (Observer::observes) {
+                    observer_.tell([&](auto& o) { o.crosses(from, to, share, total); });
+                }
                 dir = choose(bent, refraction.dir, dir);
                 bounces = choose(bent, bounces + 1, bounces);
             }
@@ -339,7 +347,9 @@ private:
         mirrored = mirrored & !(both & is_slight(mirrored_weight));
         through = through & !(both & is_slight(through_weight));
         counts_.reflected += count_lanes(mirrored);
-        observe([&](auto& o) { o.goes_on(reflected, mirrored, transmitted, through); });
+        if constexpr (Observer::observes) {
+            observer_.tell([&](auto& o) { o.goes_on(reflected, mirrored, transmitted, through); });
+        }
         Branch branch{Mask(mirrored & through), mirrored_weight, pack.bounces + 1, pack.media, {}, {}};
         if (any(mirrored)) {
             branch.dir = reflect(ray.dir, pack.at.normal);
@@ -381,7 +391,9 @@ private:
             pack.media = branch.media;
             ray = {branch.org, branch.dir, spawned_t_min<L>(), infinity<L>()};
             waiting.pop_back();
-            observe([&](auto& o) { o.takes_up(); });
+            if constexpr (Observer::observes) {
+                observer_.tell([&](auto& o) { o.takes_up(); });
+            }
         }
         return any(pack.active);
     }
@@ -530,7 +542,9 @@ private:
             if constexpr (requires { light.cos_outer; }) {
                 lit[i] = lit[i] & (cone_cosine(light, seen[i].to_light) > L(light.cos_outer));
             }
-            observe([&](auto& o) { o.light(light, seen[i], cosine[i], lit[i]); });
+            if constexpr (Observer::observes) {
+                observer_.tell([&](auto& o) { o.light(light, seen[i], cosine[i], lit[i]); });
+            }
             any_lit = any_lit || any(lit[i]);
         }
         if (!any_lit) {
@@ -549,7 +563,9 @@ private:
              const Mask& lit) const {
         const Reflectances<L>& material = pack.material;
         Rgb<L> reflected = lanes<L>(light.diffuse) * material.diffuse * cosine;
-        observe([&](auto& o) { o.diffuse(reflected); });
+        if constexpr (Observer::observes) {
+            observer_.tell([&](auto& o) { o.diffuse(reflected); });
+        }
         if constexpr (S::traits.specular) {
             const Mask highlit = lit & !is_black(material.specular);
             if (any(highlit)) {
@@ -557,7 +573,10 @@ private:
                 const L strength =
                     highlight(pack.at.normal, seen.to_light, -normalize(dir), material.shininess);
                 reflected = choose(highlit, reflected + color * material.specular * strength, reflected);
-                observe([&](auto& o) { o.specular(strength, color * material.specular * strength); });
+                if constexpr (Observer::observes) {
+                    observer_.tell(
+                        [&](auto& o) { o.specular(strength, color * material.specular * strength); });
+                }
             }
         }
         if constexpr (S::traits.attenuation && requires { light.kc; }) {
@@ -571,7 +590,9 @@ private:
         if constexpr (S::traits.transmission && S::traits.shadows) {
             reflected = reflected * pack.filter;
         }
-        observe([&](auto& o) { o.adds_light(reflected); });
+        if constexpr (Observer::observes) {
+            observer_.tell([&](auto& o) { o.adds_light(reflected); });
+        }
         pack.light = choose(lit, pack.light + reflected, pack.light);
     }
 
@@ -611,7 +632,9 @@ private:
                 const Candidates candidates = occluders(light, index).before(rays[0], lit[0]);
                 blocked[0] = any_hit(scene_, rays[0], candidates);
             }
-            observe([&](auto& o) { o.feeler(feeler(light, packs[0].at.surface), blocked[0]); });
+            if constexpr (Observer::observes) {
+                observer_.tell([&](auto& o) { o.feeler(feeler(light, packs[0].at.surface), blocked[0]); });
+            }
             for (std::size_t i = 0; i < packs.count; ++i) {
                 lit[i] = lit[i] & !blocked[i];
             }
@@ -643,10 +666,14 @@ private:
             goes_on = false;
             for (std::size_t i = 0; i < packs.count; ++i) {
                 open[i] = open[i] & (hits[i].kind != IndexOf<L>(no_kind));
-                observe([&](auto& o) { o.feeler(rays[i], open[i]); });
+                if constexpr (Observer::observes) {
+                    observer_.tell([&](auto& o) { o.feeler(rays[i], open[i]); });
+                }
                 if (any(open[i])) {
                     pass(light, rays[i], hits[i], open[i], packs[i].filter);
-                    observe([&](auto& o) { o.filtered(hits[i], packs[i].filter); });
+                    if constexpr (Observer::observes) {
+                        observer_.tell([&](auto& o) { o.filtered(hits[i], packs[i].filter); });
+                    }
                     lit[i] = lit[i] & !is_black(packs[i].filter);
                     open[i] = open[i] & lit[i];
                     goes_on = goes_on || any(open[i]);
@@ -687,14 +714,6 @@ private:
     static Ray<L> feeler(const DirectionalLight<R>& light, const Surface<L>& surface) {
         const Vec3<L> to_light = lanes<L>(light.to_light);
         return {start_off(surface, to_light), to_light, spawned_t_min<L>(), infinity<L>()};
-    }
-
-    /// tell(observer), where there is one.
-    template <class Tell>
-    void observe([[maybe_unused]] Tell&& tell) const {
-        if constexpr (Observer::observes) {
-            observer_.tell(tell);
-        }
     }
 
     const S& scene_;
