@@ -298,7 +298,7 @@ TEST(Nff, ImportsTheGoldenFile) {
         std::ofstream(folder / "all.scn", std::ios::binary) << text;
     }
     EXPECT_EQ(text, read(folder / "all.scn"));
-    EXPECT_EQ(warnings.size(), 4U);
+    EXPECT_EQ(warnings.size(), 3U);
     const test::Compiled compiled = test::compile(text);
     EXPECT_TRUE(compiled.fine) << compiled.messages;
     EXPECT_TRUE(compiled.messages.empty()) << compiled.messages;

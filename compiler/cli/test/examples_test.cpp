@@ -21,18 +21,19 @@ protected:
 };
 
 // Blender has no unbounded quadrics, and no exact normals on tori that are parts of solids; spectra take it
-// 27 pictures, which is too long here. Glass is not written for it.
-INSTANTIATE_TEST_SUITE_P(
-    All, Examples,
-    testing::Values(Example{"lecture", "pov,blender,native"}, Example{"mesh", "pov,blender,native"},
-                    Example{"transforms", "pov,blender,native"}, Example{"lights", "pov,blender,native"},
-                    Example{"mirrors", "pov,blender,native"}, Example{"stage", "pov,blender,native"},
-                    Example{"rings", "pov,native"}, Example{"quadrics", "pov,native", false},
-                    Example{"landscape", "pov,blender,native"}, Example{"textures", "pov,blender,native"},
-                    Example{"csg", "pov,blender,native"}, Example{"glass", "pov,native", false},
-                    Example{"implicit", "pov,blender,native"}, Example{"lattice", "pov,blender,native"},
-                    Example{"spectra", "pov,native"}),
-    [](const auto& row) { return std::string(row.param.name); });
+// 27 pictures, which is too long here. Glass is not written for it. The built programs draw the generic
+// pictures bit for bit, as another test shows; that `validate` runs them is shown once.
+INSTANTIATE_TEST_SUITE_P(All, Examples,
+                         testing::Values(Example{"lecture", "pov,blender,native"},
+                                         Example{"mesh", "pov,blender"}, Example{"transforms", "pov,blender"},
+                                         Example{"lights", "pov,blender"}, Example{"mirrors", "pov,blender"},
+                                         Example{"stage", "pov,blender"}, Example{"rings", "pov"},
+                                         Example{"quadrics", "pov", false},
+                                         Example{"landscape", "pov,blender"},
+                                         Example{"textures", "pov,blender"}, Example{"csg", "pov,blender"},
+                                         Example{"glass", "pov", false}, Example{"implicit", "pov,blender"},
+                                         Example{"lattice", "pov,blender"}, Example{"spectra", "pov"}),
+                         [](const auto& row) { return std::string(row.param.name); });
 
 TEST_P(Examples, CheckWithoutAWarning) {
     const auto result = scc({"check", "--strict", scene()});
@@ -61,11 +62,14 @@ TEST_P(Examples, AgreeWithOtherRenderers) {
     EXPECT_EQ(result.code, 0) << result.out << result.err;
 }
 
+/// For the renderers that they are compared with, the comparison has shown it.
 TEST_P(Examples, AreExportedWholeOrNotAtAll) {
+    if (against().find("blender") != std::string::npos) {
+        return;
+    }
     const bool whole = GetParam().whole;
     EXPECT_EQ(scc({"export", "blender", scene(), "-o", "s.py"}).code, whole ? 0 : 1);
     EXPECT_EQ(exists("s.py"), whole);
-    EXPECT_EQ(scc({"export", "pov", scene(), "-o", "s.pov"}).code, 0);
 }
 
 /// Too many objects for the other renderers; see Arrays for what they get.
