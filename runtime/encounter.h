@@ -32,8 +32,9 @@ void put(bool first, const Mask& here, const T& value, T& to) {
 /// geometric normal that the ray is on. The shading normal is turned to the viewer by its own sign, so that
 /// an interpolated one that already points away at a silhouette shades as in POV-Ray.
 template <EncounterParts parts, class S, class L>
-[[gnu::always_inline]] inline void meet(const S& scene, const Ray<L>& ray, const Hit<L>& hit, const MaskOf<L>& active,
-          [[maybe_unused]] bool wants_uv, Encounter<L>& at) {
+[[gnu::always_inline]] inline void meet(const S& scene, const Ray<L>& ray, const Hit<L>& hit,
+                                        const MaskOf<L>& active, [[maybe_unused]] bool wants_uv,
+                                        Encounter<L>& at) {
     bool first = true;
     for_each_primitive(
         scene, hit, active,

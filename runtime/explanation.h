@@ -26,10 +26,10 @@ struct Candidate {
         outside  ///< of a member: the solid is on neither side
     };
     double t = 0;
-    Vec3<double> point; ///< org + t dir, world
+    Vec3<double> point;               ///< org + t dir, world
     std::uint32_t id = 0, member = 0; ///< Tag::id of the object, and of a solid's member, else the same
     std::string_view shape;
-    bool enters = false; ///< the surface's outside is where the ray comes from
+    bool enters = false;              ///< the surface's outside is where the ray comes from
     std::optional<Residual> residual; ///< in the shape's space
     Verdict verdict = Verdict::farther;
 };
@@ -38,8 +38,8 @@ struct Candidate {
 struct Feeler {
     Vec3<double> org, dir;
     bool is_blocked = false;
-    double t = 0;         ///< of what blocks or filters it; a point light is at 1
-    std::uint32_t id = 0; ///< of that
+    double t = 0;                      ///< of what blocks or filters it; a point light is at 1
+    std::uint32_t id = 0;              ///< of that
     std::optional<Rgb<double>> filter; ///< what is left after it; nothing: all is held up
 };
 
@@ -86,7 +86,7 @@ struct RayTerms {
         bool is_total = false;
     };
     std::optional<Refraction> refraction;
-    Rgb<double> reflected{}, transmitted{};         ///< what the weights of the rays that go on are multiplied by
+    Rgb<double> reflected{}, transmitted{}; ///< what the weights of the rays that go on are multiplied by
     bool goes_back = false, goes_through = false; ///< whether they are followed
 };
 
