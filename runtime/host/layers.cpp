@@ -94,8 +94,8 @@ void add_layers(const runtime::AovImage& aovs, const SceneNames& names, ExrConte
     add("normal.Z", aovs.normal[2]);
     add("uv.U", aovs.uv[0]);
     add("uv.V", aovs.uv[1]);
-    add("object.id", aovs.object);
-    add("material.id", aovs.material);
+    add("object.X", aovs.object);
+    add("material.X", aovs.material);
     if (!aovs.object.empty()) {
         content.texts.emplace_back("object.manifest",
                                    manifest(aovs.object, [&](std::uint32_t id) { return names.object(id); }));

@@ -79,9 +79,9 @@ TEST_F(CommandLine, AovsAreLayersThatOtherProgramsRead) {
     Strings names = layers.names;
     std::sort(names.begin(), names.end());
     EXPECT_EQ(names,
-              (Strings{"B", "G", "R", "depth.Z", "material.id", "normal.X", "normal.Y", "normal.Z",
-                       "object.id", "planar.Z", "position.X", "position.Y", "position.Z", "uv.U", "uv.V"}));
-    EXPECT_EQ(layers.types.at("object.id"), OIIO::TypeDesc::UINT32);
+              (Strings{"B", "G", "R", "depth.Z", "material.X", "normal.X", "normal.Y", "normal.Z", "object.X",
+                       "planar.Z", "position.X", "position.Y", "position.Z", "uv.U", "uv.V"}));
+    EXPECT_EQ(layers.types.at("object.X"), OIIO::TypeDesc::UINT32);
     EXPECT_EQ(layers.types.at("depth.Z"), OIIO::TypeDesc::FLOAT);
     ASSERT_TRUE(scc({"render", "s.scn", "-o", "plain.exr", "--size", "64x48"}).ok());
     const runtime::Image plain = host::read_image(path("plain.exr"));
@@ -112,12 +112,12 @@ TEST_F(CommandLine, AovsHaveTheirAnalyticValues) {
             const std::array<double, 3> dir{(2 * (column + 0.5) - 64) / 48, (48 - 2 * (row + 0.5)) / 48, -1};
             const double depth = at("depth.Z"), planar = at("planar.Z");
             const double length = std::sqrt(dir[0] * dir[0] + dir[1] * dir[1] + 1);
-            const double id = at("object.id");
+            const double id = at("object.X");
             if (id == 0) {
                 ++seen["nothing"];
                 EXPECT_EQ(depth, std::numeric_limits<double>::infinity());
                 EXPECT_EQ(planar, std::numeric_limits<double>::infinity());
-                for (const char* channel : {"position.X", "position.Z", "normal.Y", "uv.U", "material.id"}) {
+                for (const char* channel : {"position.X", "position.Z", "normal.Y", "uv.U", "material.X"}) {
                     EXPECT_EQ(at(channel), 0) << channel;
                 }
                 continue;
@@ -134,7 +134,7 @@ TEST_F(CommandLine, AovsHaveTheirAnalyticValues) {
                 EXPECT_NEAR(at("normal.Y"), at("position.Y"), 1e-6);
                 EXPECT_NEAR(at("normal.Z"), at("position.Z"), 1e-6);
                 EXPECT_NEAR(at("uv.V"), std::asin(at("position.Y")) / 3.14159265358979 + 0.5, 1e-5);
-                EXPECT_EQ(at("material.id"), materials["red"].get<double>());
+                EXPECT_EQ(at("material.X"), materials["red"].get<double>());
             } else if (id == objects["target"].get<double>()) {
                 ++seen["target"];
                 EXPECT_EQ(planar, 8);
@@ -246,7 +246,7 @@ TEST_F(Explain, MatricesLeadToThePixelThatShowsThePoint) {
         for (int row = 0; row < 150; ++row) {
             for (int column = 0; column < 200; ++column) {
                 const bool here =
-                    layers.channels.at("object.id")[static_cast<std::size_t>(row * 200 + column)] != 0;
+                    layers.channels.at("object.X")[static_cast<std::size_t>(row * 200 + column)] != 0;
                 columns += here ? column + 0.5 : 0;
                 rows += here ? row + 0.5 : 0;
                 count += here ? 1 : 0;
