@@ -174,7 +174,7 @@ Loaded load(const SceneOptions& options, Stage last) {
                                     loaded.diagnostics, {}, importer.get(), options.frame, &images);
     });
     check_frame(options, loaded);
-    if (last < Stage::scene) {
+    if (last < Stage::lowered) {
         return loaded;
     }
     timed(loaded, "lower", [&] {
@@ -187,7 +187,7 @@ Loaded load(const SceneOptions& options, Stage last) {
             check_scene(loaded.module, loaded.scene, loaded.diagnostics);
         }
     });
-    if (!loaded.diagnostics.has_errors()) {
+    if (last > Stage::lowered && !loaded.diagnostics.has_errors()) {
         timed(loaded, "passes", [&] { run_passes(loaded.scene); });
     }
     return loaded;

@@ -40,7 +40,8 @@ struct Loaded {
     std::vector<std::pair<std::string, double>> times_ms;
 };
 
-enum class Stage { tokens, tree, module, scene };
+/// `lowered`: a scene that the passes have not run over.
+enum class Stage { tokens, tree, module, lowered, scene };
 
 /// A file that the command line names. Throws host::FileError.
 std::string read_text_file(const std::string& path);

@@ -25,7 +25,8 @@ std::string redefine(const host::Redefinition& wanted) {
     const Precision precision =
         wanted.precision == name_of(Precision::single) ? Precision::single : Precision::full;
     const ProgramParameters parameters = parameters_of(loaded, options);
-    CppProgram program = emit_cpp(loaded.scene, precision, Numbers::as_values, "", &parameters);
+    CppProgram program =
+        emit_cpp(loaded.scene, precision, Numbers::as_values, "", &parameters, wanted.draws_aovs);
     if (program.structure != wanted.structure) {
         throw host::UsageError(
             "with these values the scene needs other code than this program has; `scc build` "

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lang/source.h"
+#include "runtime/host/nearest.h"
 
 #include <fmt/core.h>
 
@@ -101,8 +102,6 @@ private:
 /// the notes.
 std::string render_text(const SourceSet& sources, const Diagnostic& diagnostic, bool color);
 
-/// The nearest of `candidates` to `word` by edit distance, if it is near enough to be what was meant.
-std::optional<std::string_view> nearest(std::string_view word,
-                                        const std::vector<std::string_view>& candidates);
+using host::nearest;
 
 } // namespace scc::lang

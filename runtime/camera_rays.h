@@ -62,6 +62,12 @@ public:
         }
     }
 
+    /// Through that point and the middle of the lens.
+    template <class L>
+    Ray<L> middle_ray(const L& x, const L& y) const {
+        return camera_ray(scene_.camera, projection(), x, y);
+    }
+
     Apex apex() const {
         return projection() == Projection::orthographic || has_lens() ? Apex::none : Apex::origin;
     }

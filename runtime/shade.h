@@ -1,9 +1,9 @@
 #pragma once
 
 #include "runtime/accel/occluders.h"
+#include "runtime/encounter.h"
 #include "runtime/illumination.h"
 #include "runtime/media.h"
-#include "runtime/raycast.h"
 #include "runtime/render_request.h"
 
 #include <algorithm>
@@ -41,16 +41,6 @@ MaskOf<L> is_black(const Rgb<L>& c) {
     return (c.r == 0) & (c.g == 0) & (c.b == 0);
 }
 
-/// Where rays met surfaces, as their shading needs it.
-template <class L>
-struct Encounter {
-    Surface<L> surface;
-    SurfacePoint<L> point; ///< only where the scene has functions
-    Vec3<L> normal;        ///< m: shading normal that faces the viewer
-    IndexOf<L> material;
-    IndexOf<L> body; ///< Tag::id of what the surface encloses; only with refraction
-};
-
 /// A material's fields at a point.
 template <class L>
 struct Reflectances {
@@ -69,7 +59,13 @@ inline constexpr R least_weight = R(1e-9);
 template <class R>
 inline constexpr R before_the_light = 1 - 32 * std::numeric_limits<R>::epsilon();
 
-template <SceneModel S, class L>
+/// What a Shader tells of each ray: nothing. One that `observes` has the functions that the Shader calls (see
+/// explain_pixel.h); its lanes are one, and its scene has everything.
+struct Unobserved {
+    static constexpr bool observes = false;
+};
+
+template <SceneModel S, class L, class Observer = Unobserved>
 class Shader {
     static constexpr int N = packs_together<S, L>;
 
@@ -77,8 +73,9 @@ public:
     using R = typename S::Real;
     using Mask = MaskOf<L>;
 
-    Shader(const S& scene, const RenderSettings& settings, RayCounts& counts)
-        : scene_(scene), depth_(settings.depth), shadows_(settings.shadows), counts_(counts) {
+    Shader(const S& scene, const RenderSettings& settings, RayCounts& counts, Observer observer = {})
+        : scene_(scene), depth_(settings.depth), shadows_(settings.shadows), counts_(counts),
+          observer_(observer) {
         if constexpr (S::traits.transmission) {
             for (const Phong<R>& material : scene.materials) {
                 transmits_ = transmits_ || lets_through(material);
@@ -126,6 +123,9 @@ public:
             for (std::size_t i = 0; i < packs.count; ++i) {
                 rays[i].t_max = choose(packs[i].active, rays[i].t_max, -infinity<L>());
             }
+            if constexpr (Observer::observes) {
+                observer_.tell([&](auto& o) { o.ray(rays[0], packs[0].weight, packs[0].bounces); });
+            }
             closest_hits<N, S, L>(scene_, rays, apex, hits, candidates);
             bool goes_on = false;
             for (std::size_t i = 0; i < packs.count; ++i) {
@@ -137,6 +137,9 @@ public:
                     goes_on = true;
                     meet(rays[i], hits[i], pack);
                     look_up(pack);
+                    if constexpr (Observer::observes) {
+                        observer_.tell([&](auto& o) { o.met(hits[i], pack.at, pack.material); });
+                    }
                 }
             }
             if (goes_on) {
@@ -149,6 +152,9 @@ public:
                 Pack& pack = packs[i];
                 if (any(pack.active)) {
                     sums[i] = choose(pack.active, sums[i] + pack.weight * pack.light, sums[i]);
+                    if constexpr (Observer::observes) {
+                        observer_.tell([&](auto& o) { o.leaves(pack.light); });
+                    }
                     if constexpr (S::traits.transmission) {
                         go_through(pack, rays[i], waiting_[i]);
                     } else if constexpr (S::traits.reflection) {
@@ -198,59 +204,14 @@ private:
         Pack& operator[](std::size_t i) { return list[i]; }
     };
 
-    /// Fills in `pack.at`. The material is chosen by the side of the geometric normal that the ray is on. The
-    /// shading normal is turned to the viewer by its own sign, so that an interpolated one that already
-    /// points away at a silhouette shades as in POV-Ray.
+    /// Fills in `pack.at`.
     void meet(const Ray<L>& ray, const Hit<L>& hit, Pack& pack) const {
-        Encounter<L>& at = pack.at;
-        bool first = true;
-        for_each_primitive(
-            scene_, hit, pack.active,
-            [&](const auto& primitive, const Mask& here, [[maybe_unused]] const auto inverted,
-                [[maybe_unused]] std::uint32_t body) {
-                Vec3<L> object_point;
-                Surface<L> surface = surface_of(scene_, primitive, ray, hit.shape, here, object_point);
-                if constexpr (uses_csg(S::traits)) {
-                    surface = inverted ? turned_over(surface) : surface;
-                }
-                const Mask back = dot(surface.normal, ray.dir) > 0;
-                const Vec3<L> normal = choose(dot(surface.shading_normal, ray.dir) > 0,
-                                              -surface.shading_normal, surface.shading_normal);
-                const Sides& sides = primitive.tag.sides;
-                using Index = IndexOf<L>;
-                const Index material = S::traits.two_sided
-                                           ? choose(back, Index(sides.back), Index(sides.front))
-                                           : Index(sides.front);
-                // Value by value, since whole structures would be copied through memory.
-                put(first, here, surface.point, at.surface.point);
-                put(first, here, surface.error, at.surface.error);
-                put(first, here, surface.normal, at.surface.normal);
-                put(first, here, normal, at.normal);
-                put(first, here, material, at.material);
-                if constexpr (S::traits.refraction) {
-                    put(first, here, Index(body), at.body);
-                }
-                if constexpr (S::traits.functions) {
-                    put(first, here, object_point, at.point.p);
-                }
-                if constexpr (S::traits.uv) {
-                    if (scene_.reads_uv) {
-                        put(first, here, uv_of(scene_, primitive, ray, hit.shape, here, object_point),
-                            at.point.uv);
-                    }
-                }
-                first = false;
-            });
-        if constexpr (S::traits.functions) {
-            at.point.world = at.surface.point;
-            at.point.n = at.surface.normal;
+        constexpr EncounterParts parts{S::traits.refraction, S::traits.functions, S::traits.uv};
+        bool reads_uv = false;
+        if constexpr (S::traits.uv) {
+            reads_uv = scene_.reads_uv;
         }
-    }
-    /// What the first group of lanes has may stand in the others too, whose turn comes later or which take
-    /// no part.
-    template <class T>
-    static void put(bool first, const Mask& here, const T& value, T& to) {
-        to = first ? value : choose(here, value, to);
+        detail::meet<parts>(scene_, ray, hit, pack.active, reads_uv, pack.at);
     }
 
     Rgb<L> value(const Varying<Rgb<R>>& field, const SurfacePoint<L>& point) const {
@@ -372,6 +333,9 @@ private:
                 reflected = choose(total, Rgb<L>{L(1), L(1), L(1)}, reflected);
                 through = through & !total & !(bent & (bounces >= L(static_cast<R>(depth_))));
                 counts_.refracted += count_lanes(bent & through);
+                if constexpr (Observer::observes) {
+                    observer_.tell([&](auto& o) { o.crosses(from, to, share, total); });
+                }
                 dir = choose(bent, refraction.dir, dir);
                 bounces = choose(bent, bounces + 1, bounces);
             }
@@ -383,6 +347,9 @@ private:
         mirrored = mirrored & !(both & is_slight(mirrored_weight));
         through = through & !(both & is_slight(through_weight));
         counts_.reflected += count_lanes(mirrored);
+        if constexpr (Observer::observes) {
+            observer_.tell([&](auto& o) { o.goes_on(reflected, mirrored, transmitted, through); });
+        }
         Branch branch{Mask(mirrored & through), mirrored_weight, pack.bounces + 1, pack.media, {}, {}};
         if (any(mirrored)) {
             branch.dir = reflect(ray.dir, pack.at.normal);
@@ -424,6 +391,9 @@ private:
             pack.media = branch.media;
             ray = {branch.org, branch.dir, spawned_t_min<L>(), infinity<L>()};
             waiting.pop_back();
+            if constexpr (Observer::observes) {
+                observer_.tell([&](auto& o) { o.takes_up(); });
+            }
         }
         return any(pack.active);
     }
@@ -572,6 +542,9 @@ private:
             if constexpr (requires { light.cos_outer; }) {
                 lit[i] = lit[i] & (cone_cosine(light, seen[i].to_light) > L(light.cos_outer));
             }
+            if constexpr (Observer::observes) {
+                observer_.tell([&](auto& o) { o.light(light, seen[i], cosine[i], lit[i]); });
+            }
             any_lit = any_lit || any(lit[i]);
         }
         if (!any_lit) {
@@ -590,6 +563,9 @@ private:
              const Mask& lit) const {
         const Reflectances<L>& material = pack.material;
         Rgb<L> reflected = lanes<L>(light.diffuse) * material.diffuse * cosine;
+        if constexpr (Observer::observes) {
+            observer_.tell([&](auto& o) { o.diffuse(reflected); });
+        }
         if constexpr (S::traits.specular) {
             const Mask highlit = lit & !is_black(material.specular);
             if (any(highlit)) {
@@ -597,6 +573,10 @@ private:
                 const L strength =
                     highlight(pack.at.normal, seen.to_light, -normalize(dir), material.shininess);
                 reflected = choose(highlit, reflected + color * material.specular * strength, reflected);
+                if constexpr (Observer::observes) {
+                    observer_.tell(
+                        [&](auto& o) { o.specular(strength, color * material.specular * strength); });
+                }
             }
         }
         if constexpr (S::traits.attenuation && requires { light.kc; }) {
@@ -609,6 +589,9 @@ private:
         }
         if constexpr (S::traits.transmission && S::traits.shadows) {
             reflected = reflected * pack.filter;
+        }
+        if constexpr (Observer::observes) {
+            observer_.tell([&](auto& o) { o.adds_light(reflected); });
         }
         pack.light = choose(lit, pack.light + reflected, pack.light);
     }
@@ -649,6 +632,9 @@ private:
                 const Candidates candidates = occluders(light, index).before(rays[0], lit[0]);
                 blocked[0] = any_hit(scene_, rays[0], candidates);
             }
+            if constexpr (Observer::observes) {
+                observer_.tell([&](auto& o) { o.feeler(feeler(light, packs[0].at.surface), blocked[0]); });
+            }
             for (std::size_t i = 0; i < packs.count; ++i) {
                 lit[i] = lit[i] & !blocked[i];
             }
@@ -680,8 +666,14 @@ private:
             goes_on = false;
             for (std::size_t i = 0; i < packs.count; ++i) {
                 open[i] = open[i] & (hits[i].kind != IndexOf<L>(no_kind));
+                if constexpr (Observer::observes) {
+                    observer_.tell([&](auto& o) { o.feeler(rays[i], open[i]); });
+                }
                 if (any(open[i])) {
                     pass(light, rays[i], hits[i], open[i], packs[i].filter);
+                    if constexpr (Observer::observes) {
+                        observer_.tell([&](auto& o) { o.filtered(hits[i], packs[i].filter); });
+                    }
                     lit[i] = lit[i] & !is_black(packs[i].filter);
                     open[i] = open[i] & lit[i];
                     goes_on = goes_on || any(open[i]);
@@ -728,6 +720,7 @@ private:
     int depth_;
     bool shadows_;
     RayCounts& counts_;
+    [[no_unique_address]] mutable Observer observer_;
     bool transmits_ = false; ///< some material lets light through
     bool refracts_ = false;  ///< and has an index of refraction
     Media<R> media_;

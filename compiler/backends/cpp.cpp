@@ -3,6 +3,7 @@
 #include "compiler/backends/tables.h"
 #include "compiler/ir/traits.h"
 #include "compiler/mesh_cache.h"
+#include "compiler/scene_names.h"
 #include "compiler/writer.h"
 #include "runtime/host/cache.h"
 #include "runtime/host/parallel.h"
@@ -188,14 +189,15 @@ template <class R>
 class Emitter {
 public:
     Emitter(const ir::Scene& scene, Precision precision, Numbers numbers, const std::string& values_name,
-            const ProgramParameters* parameters)
+            const ProgramParameters* parameters, bool draws_aovs)
         : scene_(scene), precision_(precision), in_code_(numbers == Numbers::in_code),
-          any_scene_(numbers == Numbers::of_any_scene), values_name_(values_name), parameters_(parameters) {}
+          any_scene_(numbers == Numbers::of_any_scene), values_name_(values_name), parameters_(parameters),
+          draws_aovs_(draws_aovs) {}
 
     CppProgram emit();
 
 private:
-    bool has_values() const { return !reads_.empty(); }
+    bool has_values() const { return draws_aovs_ || !reads_.empty(); }
     /// A member of the scene type: a constant, or one that the program reads from the values.
     template <class T>
     void member(const std::string& type, const std::string& name, const T& value);
@@ -226,6 +228,7 @@ private:
     bool any_scene_;
     std::string values_name_;
     const ProgramParameters* parameters_;
+    bool draws_aovs_;
     std::string structure_;
     host::ValuesWriter values_;
     std::vector<std::string> reads_; // statements of `load`, in the order of the values
@@ -512,7 +515,7 @@ void Emitter<R>::meshes() {
     for (const ir::Mesh& mesh : scene_.meshes) {
         built.push_back(build_mesh(mesh, {.threads = host::core_count()}));
         data.push_back(built.back().data);
-        if (!scene_.traits.uv) {
+        if (!scene_.traits.uv && !draws_aovs_) {
             data.back().uvs = nullptr;
             data.back().uv_count = 0;
         }
@@ -540,7 +543,7 @@ template <class R>
 void Emitter<R>::program() {
     out_.raw_line("Scene scene;");
     out_.blank();
-    out_.line("void load({}scc::host::Values& values) {{", has_values() ? "" : "[[maybe_unused]] ");
+    out_.line("void load({}scc::host::Values& values) {{", !reads_.empty() ? "" : "[[maybe_unused]] ");
     out_.indent();
     for (const std::string& read : reads_) {
         out_.raw_line(read);
@@ -568,6 +571,14 @@ void Emitter<R>::program() {
     out_.dedent();
     out_.raw_line("}");
     out_.blank();
+    if (draws_aovs_) {
+        out_.raw_line("bool draw_layers(const RenderRequest& request, AovImage& image) {");
+        out_.indent();
+        out_.raw_line("return draw_aovs(scene, request, image);");
+        out_.dedent();
+        out_.raw_line("}");
+        out_.blank();
+    }
     out_.raw_line("} // namespace");
     out_.blank();
     out_.raw_line("int main(int argc, char** argv) {");
@@ -590,6 +601,9 @@ void Emitter<R>::program() {
     } else if (parameters_ != nullptr) {
         facts = fmt::format(", .redefine = scc::compiler::redefine, .structure = \"{}\"", structure_);
     }
+    if (draws_aovs_) {
+        facts += ", .draw_aovs = draw_layers";
+    }
     out_.line(
         "return scc::host::run_program({{.precision = \"{}\", .isa = scc::host::compiled_isa, .features = "
         "features, .load = load, .draw = draw{}{}}}, argc, argv);",
@@ -608,6 +622,9 @@ CppProgram Emitter<R>::emit() {
         values_.add_text(parameters_->scene);
         values_.add_text(parameters_->listing);
     }
+    if (draws_aovs_) {
+        names_of(scene_).write(values_);
+    }
     // The scene type is written first, since it says which values there are.
     scene_type();
     const std::string type = out_.take();
@@ -619,6 +636,9 @@ CppProgram Emitter<R>::emit() {
     }
     if (has_bands()) {
         out_.raw_line("#include \"runtime/bands.h\"");
+    }
+    if (draws_aovs_) {
+        out_.raw_line("#include \"runtime/draw_aovs.h\"");
     }
     if (parameters_ != nullptr) {
         out_.raw_line("#include \"compiler/redefine.h\"");
@@ -644,9 +664,9 @@ CppProgram Emitter<R>::emit() {
 } // namespace
 
 CppProgram emit_cpp(const ir::Scene& scene, Precision precision, Numbers numbers,
-                    const std::string& values_name, const ProgramParameters* parameters) {
+                    const std::string& values_name, const ProgramParameters* parameters, bool draws_aovs) {
     const auto emit = [&]<class R>(R) {
-        return Emitter<R>(scene, precision, numbers, values_name, parameters).emit();
+        return Emitter<R>(scene, precision, numbers, values_name, parameters, draws_aovs).emit();
     };
     return precision == Precision::single ? emit(0.0F) : emit(0.0);
 }

@@ -41,7 +41,9 @@ struct CppProgram {
 
 /// `values_name`: the name under which the values will lie beside the source. Its letters, digits, `_`, `-`
 /// and `.` only. `parameters`: null for a program that draws the scene as it is; needs Numbers::as_values.
+/// `draws_aovs`: the program takes `--aov`.
 CppProgram emit_cpp(const ir::Scene& scene, Precision precision, Numbers numbers,
-                    const std::string& values_name = "", const ProgramParameters* parameters = nullptr);
+                    const std::string& values_name = "", const ProgramParameters* parameters = nullptr,
+                    bool draws_aovs = false);
 
 } // namespace scc::compiler

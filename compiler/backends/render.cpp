@@ -2,22 +2,38 @@
 
 #include "compiler/backends/function_program.h"
 #include "compiler/backends/kernels.h"
+#include "compiler/backends/looking_kernel.h"
 #include "compiler/backends/needs_double.h"
 #include "compiler/backends/precision_trial.h"
 #include "compiler/backends/tables.h"
 #include "compiler/ir/traits.h"
 #include "compiler/mesh_cache.h"
+#include "compiler/scene_names.h"
 #include "runtime/accel/build.h"
 
 #include <chrono>
 #include <memory>
+#include <utility>
 
 namespace scc::compiler {
 
 namespace {
 
 using Meshes = std::vector<BuiltMesh>;
-using Render = decltype(host::Drawable::render);
+
+/// What draws a scene in one precision.
+struct Renderer {
+    decltype(host::Drawable::render) render;
+    decltype(host::Drawable::draw_aovs) draw_aovs;
+};
+bool draw_aovs(const runtime::DynamicScene<float>& scene, const runtime::RenderRequest& request,
+               runtime::AovImage& to) {
+    return scc_draw_aovs_float(scene, request, to);
+}
+bool draw_aovs(const runtime::DynamicScene<double>& scene, const runtime::RenderRequest& request,
+               runtime::AovImage& to) {
+    return scc_draw_aovs_double(scene, request, to);
+}
 
 std::shared_ptr<const Meshes> build_meshes(const ir::Scene& scene, const runtime::BuildOptions& options) {
     auto meshes = std::make_shared<Meshes>();
@@ -94,31 +110,83 @@ std::shared_ptr<OwnedScene<R>> build(const ir::Scene& scene, std::shared_ptr<con
 }
 
 template <class R>
-Render make_renderer(const ir::Scene& scene, const std::shared_ptr<const Meshes>& meshes,
-                     const KernelSet& kernels, const runtime::BuildOptions& options) {
-    return [owned = build<R>(scene, meshes, options),
-            kernel = kernels.of(R{})](const runtime::RenderRequest& request, runtime::Image& image) {
-        const auto draw = [&](const runtime::RenderRequest& one, runtime::Image& to) {
-            runtime::RenderResult result;
-            kernel(owned->scene, one, to, result);
-            return result;
-        };
-        const Bands<R>& bands = owned->bands;
-        if (bands.groups.empty()) {
-            return draw(request, image);
-        }
-        const auto draw_group = [&](std::size_t group, const runtime::RenderRequest& one,
-                                    runtime::Image& to) {
-            bands.give(group, owned->scene);
-            return draw(one, to);
-        };
-        return render_bands(std::span<const runtime::BandGroup<R>>(bands.groups), request, image, draw_group);
+runtime::RenderResult render(OwnedScene<R>& owned, Kernel<R> kernel, const runtime::RenderRequest& request,
+                             runtime::Image& image) {
+    const auto draw = [&](const runtime::RenderRequest& one, runtime::Image& to) {
+        runtime::RenderResult result;
+        kernel(owned.scene, one, to, result);
+        return result;
     };
+    const Bands<R>& bands = owned.bands;
+    if (bands.groups.empty()) {
+        return draw(request, image);
+    }
+    const auto draw_group = [&](std::size_t group, const runtime::RenderRequest& one, runtime::Image& to) {
+        bands.give(group, owned.scene);
+        return draw(one, to);
+    };
+    return render_bands(std::span<const runtime::BandGroup<R>>(bands.groups), request, image, draw_group);
 }
-Render make_renderer(Precision precision, const ir::Scene& scene, const std::shared_ptr<const Meshes>& meshes,
-                     const KernelSet& kernels, const runtime::BuildOptions& options) {
+
+void explain(const runtime::DynamicScene<float>& scene, const runtime::RenderRequest& request,
+             const PixelPlace& place, runtime::Explanation* to, runtime::Rgb<float>& pixel) {
+    scc_explain_pixel_float(scene, request, place.i, place.j, to, pixel);
+}
+void explain(const runtime::DynamicScene<double>& scene, const runtime::RenderRequest& request,
+             const PixelPlace& place, runtime::Explanation* to, runtime::Rgb<float>& pixel) {
+    scc_explain_pixel_double(scene, request, place.i, place.j, to, pixel);
+}
+
+template <class R>
+ExplainedPixel explain(const ir::Scene& scene, const runtime::RenderRequest& request,
+                       const PixelPlace& place) {
+    const runtime::BuildOptions options{.threads = request.threads};
+    const std::shared_ptr<OwnedScene<R>> owned = build<R>(scene, build_meshes(scene, options), options);
+    ExplainedPixel result;
+    const auto& groups = owned->bands.groups;
+    if (groups.empty()) {
+        explain(owned->scene, request, place, &result.how, result.pixel);
+    } else {
+        result.band = groups.size() / 2;
+        runtime::Image image(1, 1);
+        render_bands(std::span<const runtime::BandGroup<R>>(groups), request, image,
+                     [&](std::size_t group, const runtime::RenderRequest& one, runtime::Image& to) {
+                         owned->bands.give(group, owned->scene);
+                         runtime::Rgb<float> color;
+                         explain(owned->scene, one, place, group == result.band ? &result.how : nullptr,
+                                 color);
+                         to.pixels = {color.r, color.g, color.b};
+                         return runtime::RenderResult{};
+                     });
+        result.pixel = {image.pixels[0], image.pixels[1], image.pixels[2]};
+    }
+    runtime::Image image(1, 1);
+    render(*owned, choose_kernels().of(R{}), request, image);
+    result.rendered = {image.pixels[0], image.pixels[1], image.pixels[2]};
+    return result;
+}
+
+template <class R>
+Renderer make_renderer(const ir::Scene& scene, const std::shared_ptr<const Meshes>& meshes,
+                       const KernelSet& kernels, const runtime::BuildOptions& options) {
+    const std::shared_ptr<OwnedScene<R>> owned = build<R>(scene, meshes, options);
+    return {[owned, kernel = kernels.of(R{})](const runtime::RenderRequest& request, runtime::Image& image) {
+                return render(*owned, kernel, request, image);
+            },
+            [owned](const runtime::RenderRequest& request, runtime::AovImage& to) {
+                return draw_aovs(owned->scene, request, to);
+            }};
+}
+Renderer make_renderer(Precision precision, const ir::Scene& scene,
+                       const std::shared_ptr<const Meshes>& meshes, const KernelSet& kernels,
+                       const runtime::BuildOptions& options) {
     return precision == Precision::single ? make_renderer<float>(scene, meshes, kernels, options)
                                           : make_renderer<double>(scene, meshes, kernels, options);
+}
+
+void give(host::Drawable& drawable, Renderer renderer) {
+    drawable.render = std::move(renderer.render);
+    drawable.draw_aovs = std::move(renderer.draw_aovs);
 }
 
 host::Drawable describe(const ir::Scene& scene, const KernelSet& kernels) {
@@ -129,7 +197,9 @@ host::Drawable describe(const ir::Scene& scene, const KernelSet& kernels) {
             .features = ir::feature_names(scene.traits),
             .settings = scene.settings,
             .times_ms = {},
-            .render = {}};
+            .render = {},
+            .draw_aovs = {},
+            .names = [&scene] { return names_of(scene); }};
 }
 
 class Stopwatch {
@@ -162,7 +232,7 @@ host::Drawable make_drawable(const ir::Scene& scene, Precision precision,
     host::Drawable drawable = describe(scene, kernels);
     drawable.precision = name_of(precision);
     const Stopwatch watch;
-    drawable.render = make_renderer(precision, scene, build_meshes(scene, options), kernels, options);
+    give(drawable, make_renderer(precision, scene, build_meshes(scene, options), kernels, options));
     drawable.times_ms.emplace_back("accel", watch.milliseconds());
     return drawable;
 }
@@ -178,16 +248,16 @@ host::Drawable make_drawable_for_8_bits(const ir::Scene& scene, const runtime::R
     host::Drawable drawable = describe(scene, kernels);
     const Stopwatch build_watch;
     const std::shared_ptr<const Meshes> meshes = build_meshes(scene, options);
-    Render single = make_renderer<float>(scene, meshes, kernels, options);
+    Renderer single = make_renderer<float>(scene, meshes, kernels, options);
     drawable.times_ms.emplace_back("accel", build_watch.milliseconds());
 
     const Stopwatch watch;
-    Render full = make_renderer<double>(scene, meshes, kernels, options);
-    const PrecisionTrial trial =
-        try_float(single, full, settings, {.coherent = !meshes->empty(), .threads = options.threads});
+    Renderer full = make_renderer<double>(scene, meshes, kernels, options);
+    const PrecisionTrial trial = try_float(single.render, full.render, settings,
+                                           {.coherent = !meshes->empty(), .threads = options.threads});
     drawable.precision = name_of(trial.passed ? Precision::single : Precision::full);
     drawable.precision_reason = trial.reason;
-    drawable.render = trial.passed ? std::move(single) : std::move(full);
+    give(drawable, std::move(trial.passed ? single : full));
     drawable.times_ms.emplace_back("precision", watch.milliseconds());
     return drawable;
 }
@@ -200,6 +270,15 @@ PrecisionChoice choose_precision_for_8_bits(const ir::Scene& scene, const runtim
     const host::Drawable drawable = make_drawable_for_8_bits(scene, settings, options);
     const bool single = drawable.precision == name_of(Precision::single);
     return {single ? Precision::single : Precision::full, drawable.precision_reason};
+}
+
+ExplainedPixel explain_pixel(const ir::Scene& scene, Precision precision,
+                             const runtime::RenderSettings& settings, const PixelPlace& place) {
+    runtime::RenderRequest request;
+    request.settings = settings;
+    request.crop = {place.x, place.y, place.x + 1, place.y + 1};
+    return precision == Precision::single ? explain<float>(scene, request, place)
+                                          : explain<double>(scene, request, place);
 }
 
 } // namespace scc::compiler

@@ -1,16 +1,14 @@
 #include "compiler/backends/cpp.h"
-#include "compiler/backends/render.h"
 #include "compiler/cli/build_report.h"
 #include "compiler/cli/commands.h"
 #include "compiler/cli/native.h"
+#include "compiler/cli/needs.h"
 #include "compiler/ir/print.h"
 #include "compiler/program_scene.h"
 #include "compiler/writer.h"
 #include "lang/dump.h"
 #include "runtime/host/file.h"
-#include "runtime/host/image_file.h"
 #include "runtime/host/options.h"
-#include "runtime/host/parallel.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -35,6 +33,7 @@ struct Options {
     std::optional<compiler::Precision> chosen_precision; ///< nothing: auto
 
     NativeOptions native;
+    bool draws_aovs = false;
     std::string report; ///< "text", "json" or empty
 };
 
@@ -52,15 +51,9 @@ Stage stage_for(Emit emit) {
     return Stage::scene;
 }
 
-/// Float under `auto` needs to be told that 8 bits of each value will do: by the scene's own file.
 compiler::PrecisionChoice choose_precision(const compiler::ir::Scene& scene, const Options& options) {
-    if (options.chosen_precision) {
-        return {*options.chosen_precision, "asked for"};
-    }
-    if (!host::keeps_8_bits(scene.file, 8)) {
-        return {compiler::Precision::full, "the scene names no `file` that keeps but 8 bits of each value"};
-    }
-    return compiler::choose_precision_for_8_bits(scene, scene.settings, {.threads = host::core_count()});
+    return options.chosen_precision ? compiler::PrecisionChoice{*options.chosen_precision, "asked for"}
+                                    : program_precision(scene);
 }
 
 void emit_source(const Loaded& loaded, const Options& options) {
@@ -68,7 +61,7 @@ void emit_source(const Loaded& loaded, const Options& options) {
         compiler::Identifiers("scene_").make(fs::path(options.output).stem().string()) + ".values";
     const compiler::CppProgram program =
         emit_cpp(loaded.scene, choose_precision(loaded.scene, options).precision, compiler::Numbers::in_code,
-                 values_name);
+                 values_name, nullptr, options.draws_aovs);
     if (!program.values.empty()) {
         if (options.output == "-") {
             throw host::UsageError(
@@ -89,7 +82,7 @@ void emit_program(const Loaded& loaded, const Options& options) {
         parameters = parameters_of(loaded, options.scene);
     }
     compile_native(emit_cpp(loaded.scene, precision.precision, compiler::Numbers::as_values, "",
-                            parameters ? &*parameters : nullptr),
+                            parameters ? &*parameters : nullptr, options.draws_aovs),
                    options.native, options.output);
     if (!options.report.empty()) {
         const ReportKind kind = options.report == "json" ? ReportKind::json : ReportKind::text;
@@ -162,6 +155,8 @@ void add_build(CLI::App& app, Run& selected) {
         ->add_flag("--report{text}", options->report,
                    "say what the program holds and leaves out, and what that saves; --report=json: as JSON")
         ->check(CLI::IsMember({"text", "json"}));
+    command->add_flag("--aov", options->draws_aovs,
+                      "the program can draw AOVs: it takes `--aov`, as `scc render` does");
     command->add_flag_callback(
         "--no-cache",
         [options] {

@@ -3,8 +3,7 @@
 #include "compiler/backends/render.h"
 #include "compiler/cli/commands.h"
 #include "compiler/cli/executable.h"
-#include "compiler/ir/traits.h"
-#include "compiler/passes/passes.h"
+#include "compiler/cli/needs.h"
 #include "validation/scratch.h"
 #include "validation/subprocess.h"
 
@@ -24,11 +23,6 @@ namespace {
 
 constexpr int runs = 5, width = 320, height = 240;
 
-struct Feature {
-    std::string name;
-    std::string place; ///< file:line of the first that asks for it, or empty
-};
-
 struct Facts {
     std::vector<Feature> kept;
     std::vector<std::string> left_out;
@@ -36,34 +30,6 @@ struct Facts {
     Executable with_everything;
     double generic_ns = 0, program_ns = 0; ///< per sample, one thread
 };
-
-std::string place_of(const Loaded& loaded, const lang::Span& span) {
-    if (!loaded.sources.contains(span.file)) {
-        return "";
-    }
-    const lang::SourceFile& file = loaded.sources.file(span.file);
-    return fmt::format("{}:{}", file.path(), file.position(span.begin).line);
-}
-
-void add_features(Facts& facts, const Loaded& loaded) {
-    const std::vector<std::string> kept = compiler::ir::feature_names(loaded.scene.traits);
-    for (const std::string& name : kept) {
-        Feature feature{name, ""};
-        for (const compiler::Need& need : compiler::needs_of(loaded.scene)) {
-            const std::vector<std::string> asked = compiler::ir::feature_names(need.traits);
-            if (std::find(asked.begin(), asked.end(), name) != asked.end()) {
-                feature.place = place_of(loaded, need.span);
-                break;
-            }
-        }
-        facts.kept.push_back(feature);
-    }
-    for (const std::string& name : compiler::ir::feature_names(runtime::everything)) {
-        if (std::find(kept.begin(), kept.end(), name) == kept.end()) {
-            facts.left_out.push_back(name);
-        }
-    }
-}
 
 double nanoseconds_per_sample(double milliseconds) {
     return milliseconds * 1e6 / (static_cast<double>(width) * height);
@@ -180,7 +146,8 @@ std::string build_report(const Loaded& loaded, const compiler::PrecisionChoice& 
                          const NativeOptions& options, const std::string& program, ReportKind kind) {
     const validation::ScratchFolder folder;
     Facts facts;
-    add_features(facts, loaded);
+    facts.kept = needed_features(loaded);
+    facts.left_out = features_left_out(loaded.scene);
     facts.program = inspect_executable(program);
     facts.with_everything = everything_program(loaded, precision.precision, options, folder.path());
     measure_times(facts, compiler::make_drawable(loaded.scene, precision.precision), fs::absolute(program),

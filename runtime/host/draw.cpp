@@ -1,15 +1,19 @@
 #include "runtime/host/draw.h"
 
+#include "runtime/host/exr.h"
 #include "runtime/host/file.h"
 #include "runtime/host/image_file.h"
+#include "runtime/host/json.h"
+#include "runtime/host/layers.h"
 #include "runtime/host/progress.h"
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cstdio>
+#include <optional>
 #include <string_view>
 #include <sys/resource.h>
+#include <utility>
 
 namespace scc::host {
 
@@ -25,30 +29,6 @@ double peak_rss_mb() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return static_cast<double>(usage.ru_maxrss) / 1024;
-}
-
-std::string json(double number) {
-    char text[32];
-    const auto [end, error] = std::to_chars(text, text + sizeof text, number);
-    return {text, end};
-}
-std::string json(std::uint64_t number) {
-    return std::to_string(number);
-}
-std::string json(int number) {
-    return std::to_string(number);
-}
-/// Control characters are written as \u00xx; the rest is UTF-8 as it is.
-std::string json(std::string_view text) {
-    std::string quoted = "\"";
-    for (const char c : text) {
-        if (static_cast<unsigned char>(c) < 0x20) {
-            quoted += std::string("\\u00") + (c < 0x10 ? '0' : '1') + "0123456789abcdef"[c & 15];
-        } else {
-            quoted += c == '"' || c == '\\' ? std::string{'\\', c} : std::string(1, c);
-        }
-    }
-    return quoted + '"';
 }
 
 /// Joins members or entries that are JSON already: on lines of their own, or all on one for no `indent`.
@@ -74,21 +54,30 @@ std::uint64_t out_of_gamut(const runtime::Image& image) {
     return count;
 }
 
+struct Spent {
+    double render_ms = 0;
+    std::optional<double> aovs_ms;
+    double write_ms = 0;
+};
+
 std::string statistics(const Drawable& drawable, const runtime::RenderRequest& request,
-                       const runtime::RenderResult& result, const runtime::Image& image, double render_ms,
-                       double write_ms) {
+                       const runtime::RenderResult& result, const runtime::Image& image, const Spent& spent) {
     std::vector<std::string> times;
-    double total = render_ms + write_ms;
+    double total = spent.render_ms + spent.write_ms;
     for (const std::string_view stage : {"parse", "check", "lower", "passes", "accel", "precision"}) {
-        double spent = 0;
+        double stage_ms = 0;
         for (const auto& [name, ms] : drawable.times_ms) {
-            spent += name == stage ? ms : 0;
+            stage_ms += name == stage ? ms : 0;
         }
-        times.push_back(member(stage, spent));
-        total += spent;
+        times.push_back(member(stage, stage_ms));
+        total += stage_ms;
     }
-    times.push_back(member("render", render_ms));
-    times.push_back(member("write", write_ms));
+    if (spent.aovs_ms) {
+        times.push_back(member("aov", *spent.aovs_ms));
+        total += *spent.aovs_ms;
+    }
+    times.push_back(member("render", spent.render_ms));
+    times.push_back(member("write", spent.write_ms));
     times.push_back(member("total", total));
     const runtime::RayCounts& rays = result.rays;
     const auto count = static_cast<double>(rays.primary + rays.shadow + rays.reflected + rays.refracted);
@@ -113,7 +102,7 @@ std::string statistics(const Drawable& drawable, const runtime::RenderRequest& r
                              member("undecided", rays.undecided), member("at_jumps", rays.at_jumps)},
                             4),
         member("out_of_gamut", out_of_gamut(image)),
-        member("mrays_per_s", render_ms > 0 ? count / render_ms / 1000 : 0.0),
+        member("mrays_per_s", spent.render_ms > 0 ? count / spent.render_ms / 1000 : 0.0),
         member("peak_rss_mb", peak_rss_mb()),
         "\"features\": " + list("[]", features, 4)};
     return list("{}", members, 2) + "\n";
@@ -127,28 +116,43 @@ int draw(const Drawable& drawable, const RenderOptions& options) {
     runtime::Image image(request.crop.x1 - request.crop.x0, request.crop.y1 - request.crop.y0);
 
     runtime::RenderResult result;
-    const auto render_start = Clock::now();
+    runtime::AovImage aovs(image.width, image.height, options.aovs);
+    Spent spent;
     {
         const InterruptGuard guard;
-        ProgressLine line("render " + drawable.scene, options.progress);
-        request.progress = [&](double done) {
-            line.update(done);
-            return !InterruptGuard::interrupted();
+        const auto draw_with_progress = [&](const char* what, auto&& draw_it) {
+            ProgressLine line(what + drawable.scene, options.progress);
+            request.progress = [&](double done) {
+                line.update(done);
+                return !InterruptGuard::interrupted();
+            };
+            const auto start = Clock::now();
+            draw_it();
+            return milliseconds_since(start);
         };
-        result = drawable.render(request, image);
+        spent.render_ms = draw_with_progress("render ", [&] { result = drawable.render(request, image); });
+        if (options.aovs != 0 && result.complete) {
+            spent.aovs_ms =
+                draw_with_progress("AOVs of ", [&] { result.complete = drawable.draw_aovs(request, aovs); });
+        }
     }
     if (!result.complete) {
         std::fputs("interrupted; no picture was written\n", stderr);
         return exit_interrupted;
     }
-    const double render_ms = milliseconds_since(render_start);
 
     const auto write_start = Clock::now();
-    write_image(options.output, image, {.bits = options.bits, .threads = request.threads});
-    const double write_ms = milliseconds_since(write_start);
+    if (options.aovs != 0) {
+        ExrContent content = exr_content(image);
+        add_layers(aovs, drawable.names(), content);
+        replace_file(options.output, encode_exr(std::move(content), false, request.threads));
+    } else {
+        write_image(options.output, image, {.bits = options.bits, .threads = request.threads});
+    }
+    spent.write_ms = milliseconds_since(write_start);
 
     if (!options.stats.empty()) {
-        const std::string text = statistics(drawable, request, result, image, render_ms, write_ms);
+        const std::string text = statistics(drawable, request, result, image, spent);
         if (options.stats == "-") {
             std::fwrite(text.data(), 1, text.size(), stdout);
         } else {

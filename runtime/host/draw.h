@@ -1,6 +1,8 @@
 #pragma once
 
+#include "runtime/aov.h"
 #include "runtime/host/options.h"
+#include "runtime/host/scene_names.h"
 #include "runtime/image.h"
 #include "runtime/render_request.h"
 
@@ -21,6 +23,9 @@ struct Drawable {
     runtime::RenderSettings settings;
     std::vector<std::pair<std::string, double>> times_ms; ///< of the stages before
     std::function<runtime::RenderResult(const runtime::RenderRequest&, runtime::Image&)> render;
+    /// Called only where RenderOptions::aovs names some. False if the request's progress ended it.
+    std::function<bool(const runtime::RenderRequest&, runtime::AovImage&)> draw_aovs{};
+    std::function<SceneNames()> names{}; ///< likewise
 };
 
 /// Draws, writes the picture and the statistics. Returns the exit code (fine, interrupted); an interrupted

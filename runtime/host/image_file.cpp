@@ -64,6 +64,10 @@ bool keeps_8_bits(const std::string& path, int bits) {
     return type_of(path) == FileType::png && bits == 8;
 }
 
+bool has_layers(const std::string& path) {
+    return type_of(path) == FileType::exr;
+}
+
 void write_image(const std::string& path, const Image& image, const ImageFileOptions& options) {
     check_writable(image);
     switch (type_of(path)) {

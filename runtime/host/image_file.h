@@ -20,6 +20,9 @@ bool is_image_type_known(const std::string& path);
 /// Whether the file holds but 8 bits of each value, with `bits` for a PNG.
 bool keeps_8_bits(const std::string& path, int bits);
 
+/// True for `.exr`.
+bool has_layers(const std::string& path);
+
 /// Writes one or three channels through `replace_file`: the final name never holds half a picture. A PNG
 /// holds values clamped to 0..1 (NaN: 0); float files keep every value. The bytes depend on the picture
 /// alone. Throws FileError; for an unknown type, another number of channels or of bits,

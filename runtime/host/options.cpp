@@ -1,6 +1,7 @@
 #include "runtime/host/options.h"
 
 #include "runtime/host/image_file.h"
+#include "runtime/host/layers.h"
 #include "runtime/host/parallel.h"
 
 #include <algorithm>
@@ -104,19 +105,23 @@ void set_progress(RenderOptions& options, const std::string& text) {
 
 constexpr auto rows = std::to_array<OptionRow>({
     {"--output", "-o", "IMG", "the picture: .png (8 or 16 bit, sRGB), .exr or .pfm (float, linear)", false,
-     true, [](RenderOptions& options, const std::string& text) { options.output = text; }},
-    {"--size", nullptr, "WxH", "size in pixels", true, false, set_size},
-    {"--samples", nullptr, "N", "samples per pixel; of a grid a square number", true, false, set_samples},
+     true, false, [](RenderOptions& options, const std::string& text) { options.output = text; }},
+    {"--size", nullptr, "WxH", "size in pixels", true, false, false, set_size},
+    {"--samples", nullptr, "N", "samples per pixel; of a grid a square number", true, false, false,
+     set_samples},
     {"--filter", nullptr, "NAME", "weights of samples: box, mitchell, gaussian or blackman_harris", false,
-     false, set_filter},
-    {"--threads", nullptr, "N", "threads; default: one per core", true, false, set_threads},
+     false, false, set_filter},
+    {"--threads", nullptr, "N", "threads; default: one per core", true, false, false, set_threads},
     {"--crop", nullptr, "X0,Y0,X1,Y1", "draw only these pixels, rows from the top, ends excluded", false,
-     false, set_crop},
-    {"--bits", nullptr, "8|16", "of a PNG", false, false, set_bits},
+     false, false, set_crop},
+    {"--bits", nullptr, "8|16", "of a PNG", false, false, false, set_bits},
     {"--progress", nullptr, "auto|always|never",
-     "progress line on stderr; auto: on a terminal, after a second", false, false, set_progress},
+     "progress line on stderr; auto: on a terminal, after a second", false, false, false, set_progress},
     {"--stats", nullptr, "FILE.json", "write times, ray counts and features as JSON; - for stdout", false,
-     false, [](RenderOptions& options, const std::string& text) { options.stats = text; }},
+     false, false, [](RenderOptions& options, const std::string& text) { options.stats = text; }},
+    {"--aov", nullptr, "LIST",
+     "further layers of the .exr: depth, planar, position, normal, uv, object, material", false, false, true,
+     [](RenderOptions& options, const std::string& text) { options.aovs = parse_aovs(text); }},
 });
 
 /// An option of programs whose scene has parameters, which may be repeated.
@@ -132,7 +137,8 @@ constexpr ListRow list_rows[] = {
      &ProgramOptions::asset_paths},
 };
 
-void print_help(const std::string& program, const std::string& purpose, const std::string& parameters) {
+void print_help(const std::string& program, const std::string& purpose, const std::string& parameters,
+                bool draws_aovs) {
     std::string text = purpose + "\n\nUsage: " + program;
     for (const OptionRow& row : rows) {
         if (row.required) {
@@ -148,6 +154,9 @@ void print_help(const std::string& program, const std::string& purpose, const st
     };
     add("  -h,--help", "print this");
     for (const OptionRow& row : rows) {
+        if (row.aov && !draws_aovs) {
+            continue;
+        }
         const std::string short_name = row.short_name != nullptr ? std::string(row.short_name) + "," : "";
         add("  " + short_name + row.name + " " + row.value, row.help);
     }
@@ -195,7 +204,8 @@ private:
 };
 
 /// Whether the current argument was one of the render options, which then is set.
-bool take_render_option(Arguments& arguments, RenderOptions& options, std::array<bool, rows.size()>& given) {
+bool take_render_option(Arguments& arguments, RenderOptions& options, bool draws_aovs,
+                        std::array<bool, rows.size()>& given) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const OptionRow& row = rows[i];
         std::optional<std::string> value = arguments.value_of(row.name, row.value);
@@ -204,6 +214,11 @@ bool take_render_option(Arguments& arguments, RenderOptions& options, std::array
         }
         if (!value) {
             continue;
+        }
+        if (row.aov && !draws_aovs) {
+            throw UsageError(
+                std::string(row.name) +
+                ": this program was made without AOVs; `scc build --aov` makes one that has them");
         }
         if (std::exchange(given[i], true)) {
             throw UsageError(std::string(row.name) + " is given twice");
@@ -235,16 +250,16 @@ std::span<const OptionRow> render_option_rows() {
 }
 
 std::optional<ProgramOptions> parse_program_options(int argc, char** argv, const std::string& purpose,
-                                                    const std::string& parameters) {
+                                                    const std::string& parameters, bool draws_aovs) {
     ProgramOptions options;
     std::array<bool, rows.size()> given{};
     for (Arguments arguments(argc, argv); arguments.next();) {
         const std::string argument = arguments.current();
         if (argument == "-h" || argument == "--help") {
-            print_help(argv[0], purpose, parameters);
+            print_help(argv[0], purpose, parameters, draws_aovs);
             return std::nullopt;
         }
-        if (take_render_option(arguments, options.render, given) ||
+        if (take_render_option(arguments, options.render, draws_aovs, given) ||
             (!parameters.empty() && take_list_option(arguments, options))) {
             continue;
         }
@@ -268,6 +283,9 @@ void check_output(const RenderOptions& options) {
     }
     if (!is_image_type_known(options.output)) {
         throw UsageError("`" + options.output + "` has no known image type; it ends in .png, .exr or .pfm");
+    }
+    if (options.aovs != 0 && !has_layers(options.output)) {
+        throw UsageError("`--aov` adds layers to an OpenEXR file: give `-o` a name that ends in .exr");
     }
     fs::path folder = fs::path(options.output).parent_path();
     if (folder.empty()) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "runtime/aov.h"
 #include "runtime/render_request.h"
 
 #include <optional>
@@ -37,6 +38,7 @@ struct RenderOptions {
     int threads = 0; ///< 0: one per core
     int bits = 8;
     ProgressMode progress = ProgressMode::automatic;
+    runtime::AovSet aovs = 0;
     std::string stats; ///< file, `-` for standard output, or empty
 };
 
@@ -48,6 +50,7 @@ struct OptionRow {
     const char* help;
     bool picture; ///< says how a picture is drawn that is compared with others', and not where it goes
     bool required;
+    bool aov; ///< of programs that draw AOVs only
     /// Throws UsageError for a bad value; the text says what a good one is.
     void (*set)(RenderOptions&, const std::string& value);
 };
@@ -61,12 +64,13 @@ struct ProgramOptions {
 };
 
 /// A built program's command line. Nothing if it asked for `--help`, which then was printed with `purpose` at
-/// its head. `parameters` lists those that `-D` can set, a line each; without any there is no such option.
-/// Throws UsageError.
+/// its head. `parameters` lists those that `-D` can set, a line each; without any there is no such option,
+/// nor is there `--aov` unless `draws_aovs`. Throws UsageError.
 std::optional<ProgramOptions> parse_program_options(int argc, char** argv, const std::string& purpose,
-                                                    const std::string& parameters);
+                                                    const std::string& parameters, bool draws_aovs);
 
-/// What can be told before any work: an unknown image type, `-o -` (UsageError), a folder that cannot be
+/// What can be told before any work: an unknown image type, `-o -`, AOVs for a type without layers
+/// (UsageError), a folder that cannot be
 /// written (FileError).
 void check_output(const RenderOptions& options);
 

@@ -47,6 +47,7 @@ struct Opened {
     runtime::RenderSettings settings;
     std::string source;     ///< of a scene with parameters, as the compiler packed it
     std::string parameters; ///< for people, a line each
+    SceneNames names;       ///< with AOVs
     Values values;          ///< the rest of them
 };
 
@@ -60,6 +61,9 @@ Opened open_values(const Program& program, std::span<const std::byte> bytes) {
         opened.source = opened.values.read_text();
         opened.parameters = opened.values.read_text();
     }
+    if (program.draw_aovs != nullptr) {
+        opened.names.read(opened.values);
+    }
     return opened;
 }
 
@@ -69,10 +73,17 @@ Opened open(const Program& program, std::optional<MappedFile>& file) {
         file.emplace("/proc/self/exe");
         return open_values(program, file->bytes());
     }
-    Opened opened{
-        .name = program.scene, .settings = program.settings, .source = {}, .parameters = {}, .values = {}};
+    Opened opened{.name = program.scene,
+                  .settings = program.settings,
+                  .source = {},
+                  .parameters = {},
+                  .names = {},
+                  .values = {}};
     if (program.values != nullptr) {
         opened.values = Values(std::as_bytes(std::span(program.values, program.values_size)), program.scene);
+    }
+    if (program.draw_aovs != nullptr) {
+        opened.names.read(opened.values);
     }
     return opened;
 }
@@ -88,7 +99,9 @@ Drawable load(const Program& program, Opened& opened) {
                       .features = {},
                       .settings = opened.settings,
                       .times_ms = {{"accel", milliseconds_since(start)}},
-                      .render = program.draw};
+                      .render = program.draw,
+                      .draw_aovs = program.draw_aovs,
+                      .names = [&names = opened.names] { return names; }};
     for (const char* const* feature = program.features; *feature != nullptr; ++feature) {
         drawable.features.emplace_back(*feature);
     }
@@ -122,16 +135,17 @@ int run_program(const Program& program, int argc, char** argv) {
     try {
         std::optional<MappedFile> file;
         Opened opened = open(program, file);
-        const std::optional<ProgramOptions> options =
-            parse_program_options(argc, argv, purpose_of(opened), opened.parameters);
+        const std::optional<ProgramOptions> options = parse_program_options(
+            argc, argv, purpose_of(opened), opened.parameters, program.draw_aovs != nullptr);
         if (!options) {
             return exit_fine;
         }
         check_filter(program, options->render);
         std::optional<AlignedBytes> redefined;
         if (!options->definitions.empty()) {
-            redefined.emplace(program.redefine({opened.source, program.structure, program.precision,
-                                                options->definitions, options->asset_paths}));
+            redefined.emplace(
+                program.redefine({opened.source, program.structure, program.precision, options->definitions,
+                                  options->asset_paths, program.draw_aovs != nullptr}));
             opened = open_values(program, redefined->bytes());
         }
         const Drawable drawable = load(program, opened);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "runtime/aov.h"
 #include "runtime/host/values.h"
 #include "runtime/image.h"
 #include "runtime/render_request.h"
@@ -18,6 +19,7 @@ struct Redefinition {
     std::string_view precision;
     std::vector<std::string> definitions; ///< NAME=VALUE
     std::vector<std::string> asset_paths;
+    bool draws_aovs = false;
 };
 
 /// The scene is wrong with these values, which was said on standard error.
@@ -43,7 +45,10 @@ struct Program {
     /// for people come after the settings. Throws UsageError, FileError, SceneError.
     std::string (*redefine)(const Redefinition&) = nullptr;
     const char* structure = nullptr; ///< what of the scene is in the code
-    bool has_filters = false;        ///< SceneTraits::pixel_sampling
+    /// Null: the program draws no AOVs. Else the scene's names (see SceneNames) come before the values that
+    /// `load` reads.
+    bool (*draw_aovs)(const runtime::RenderRequest&, runtime::AovImage&) = nullptr;
+    bool has_filters = false; ///< SceneTraits::pixel_sampling
 };
 
 /// The program's main: reads the options, draws, writes. Returns the exit code.

@@ -20,7 +20,7 @@ TEST_F(CommandLine, HelpNamesEveryCommand) {
     const auto result = scc({"--help"});
     EXPECT_TRUE(result.ok());
     for (const char* command : {"check", "fmt", "params", "render", "build", "export", "import", "validate",
-                                "compare", "doctor", "reference"}) {
+                                "explain", "compare", "doctor", "reference"}) {
         EXPECT_NE(result.out.find(command), std::string::npos) << command;
     }
 }

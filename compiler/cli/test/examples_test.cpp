@@ -26,8 +26,8 @@ protected:
 // Blender has no unbounded quadrics, and no exact normals on tori that are parts of solids; spectra take it
 // 27 pictures, which is too long here. Neither glass nor solids with meshes in them are written for it. The
 // built programs draw the generic pictures bit for bit, as another test shows; that `validate` runs them is
-// shown once. A lens is compared in tests of its own, with many samples, and a zone plate asks for more digits
-// than Blender has.
+// shown once. A lens is compared in tests of its own, with many samples, and a zone plate asks for more
+// digits than Blender has.
 INSTANTIATE_TEST_SUITE_P(All, Examples,
                          testing::Values(Example{"lecture", "pov,blender,native"},
                                          Example{"mesh", "pov,blender"}, Example{"transforms", "pov,blender"},

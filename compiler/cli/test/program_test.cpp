@@ -18,11 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* spheres_only =
-    "sphere { center = (0, 0, 0), material = phong { diffuse = rgb(0.8, 0.2, 0.2) } }\n"
-    "sphere { center = (2, 0, 0), material = phong { diffuse = rgb(0.2, 0.8, 0.2) } }\n"
-    "perspective_camera { eye = (0, 0, 9) }\npoint_light { position = (3, 4, 5) }\n";
-
 class BuiltProgram : public CommandLine {
 protected:
     /// Its functions' names, not stripped.

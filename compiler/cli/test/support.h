@@ -64,4 +64,9 @@ private:
 inline constexpr const char* small_scene =
     "sphere { }\nperspective_camera { }\npoint_light { position = (3, 4, 5) }\n";
 
+inline constexpr const char* spheres_only =
+    "sphere { center = (0, 0, 0), material = phong { diffuse = rgb(0.8, 0.2, 0.2) } }\n"
+    "sphere { center = (2, 0, 0), material = phong { diffuse = rgb(0.2, 0.8, 0.2) } }\n"
+    "perspective_camera { eye = (0, 0, 9) }\npoint_light { position = (3, 4, 5) }\n";
+
 } // namespace scc::cli::test

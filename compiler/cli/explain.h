@@ -1,0 +1,31 @@
+#pragma once
+
+#include "compiler/cli/commands.h"
+#include "runtime/math/vec.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+
+/// The chapters of `scc explain`, each as text for people or as JSON.
+namespace scc::cli {
+
+struct ExplainOptions {
+    SceneOptions scene;
+    bool needs = false;
+    bool matrices = false;
+    std::optional<std::pair<int, int>> pixel;   ///< from the top left corner of the picture
+    std::optional<std::pair<int, int>> sample;  ///< of the pixel's n x n, from its top left corner
+    std::optional<runtime::Vec3<double>> point; ///< instead of the camera's target, for the matrices
+    host::RenderOptions render;
+    std::optional<compiler::Precision> precision;
+    bool json = false;
+};
+
+/// L1 to L4 and L6: of a scene that the passes have not run over.
+std::string explain_matrices(const Loaded& loaded, const ExplainOptions& options);
+std::string explain_needs(const Loaded& loaded, const ExplainOptions& options);
+/// L11 to L15 for one pixel. Throws host::UsageError for a pixel or sample that the picture does not have.
+std::string explain_pixel(const Loaded& loaded, const ExplainOptions& options);
+
+} // namespace scc::cli
