@@ -348,6 +348,10 @@ std::string matrices_json(const Loaded& loaded, const Stages& s, int width, int 
 
 std::string explain_matrices(const Loaded& loaded, const ExplainOptions& options) {
     const compiler::ir::Scene& scene = loaded.scene;
+    if (scene.camera.projection == runtime::Projection::spherical) {
+        throw host::UsageError("--matrices: a spherical camera has none, since straight lines become curves; "
+                               "--pixel shows its rays");
+    }
     const auto [width, height] =
         options.render.size.value_or(std::pair{scene.settings.width, scene.settings.height});
     const double aspect = static_cast<double>(width) / height;

@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-/// What must hold for every text, whatever is in it: each aborts where it does not. The fuzzers run one of them
-/// each; a test runs all of them over the project's scenes.
+/// What must hold for every text, whatever is in it: each aborts where it does not. The fuzzers run one of
+/// them each; a test runs all of them over the project's scenes.
 namespace scc::lang::fuzz {
 
 /// The lexer: tokens lie one after the other within the text.
