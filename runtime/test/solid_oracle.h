@@ -118,14 +118,16 @@ struct Node {
     Affine<long double> object_from_world{}; ///< of the rounded place
 };
 
+enum class Members { all, with_fields }; ///< meshes too, or not
 template <class R>
-Node<R> random_node(Random<R>& random, int depth) {
+Node<R> random_node(Random<R>& random, int depth, Members members = Members::all) {
     Node<R> node;
     if (depth > 0) {
         node.op = static_cast<CsgOp>(1 + static_cast<int>(random.number(0, 2.999)));
         const int operands = 2 + static_cast<int>(random.number(0, 2));
         for (int i = 0; i < operands; ++i) {
-            node.operands.push_back(random_node(random, depth - 1 - static_cast<int>(random.number(0, 1.5))));
+            node.operands.push_back(
+                random_node(random, depth - 1 - static_cast<int>(random.number(0, 1.5)), members));
         }
         return node;
     }
@@ -136,7 +138,7 @@ Node<R> random_node(Random<R>& random, int depth) {
         }
         node.shape = shape;
     };
-    switch (static_cast<int>(random.number(0, 8.999))) {
+    switch (static_cast<int>(random.number(0, members == Members::all ? 8.999 : 7.999))) {
     case 0:
         make(Sphere<R>{});
         break;
@@ -161,7 +163,7 @@ Node<R> random_node(Random<R>& random, int depth) {
     case 6:
         make(Quadric<R>{});
         break;
-    case 7:
+    case 8:
         node.shape = Mesh<R>{0};
         break;
     default:

@@ -60,7 +60,7 @@ TEST(SolidMesh, RandomSolidsAreClosedManifoldsWithinTolerance) {
     Random<double> random(41);
     int rays = 0, missing = 0, samples = 0, away = 0;
     for (int i = 0; i < 16; ++i) {
-        const Solid<double> solid(bounded(random_node(random, 2)));
+        const Solid<double> solid(bounded(random_node(random, 2, Members::with_fields)));
         const Mesh3 result = mesh_of(solid, tolerance);
         expect_closed_manifold(result.mesh, "solid " + std::to_string(i));
         EXPECT_LE(result.deviation, tolerance) << i;
@@ -145,7 +145,7 @@ TEST(SolidMesh, FacesThatTouchLeaveNoFilm) {
 
     Random<double> random(8);
     for (int i = 0; i < 5; ++i) {
-        const Node<double> part = bounded(random_node(random, 1));
+        const Node<double> part = bounded(random_node(random, 1, Members::with_fields));
         EXPECT_TRUE(mesh_of(Solid<double>({CsgOp::subtract, {part, part}, {}}), 0.05).mesh.triangles.empty());
     }
 }

@@ -41,7 +41,8 @@ const std::map<Diag, Case>& cases() {
           "    sphere { transform = rotate_z(45deg) }\n  }\n}\n"}},
         {Diag::open_solid,
          {"difference {\n  box { }\n  cylinder { radius = 0.5, caps = false }\n  disc { }\n"
-          "  heightfield { field = fn(uv: vec2) = uv.x, cells = (2, 2) }\n}\n"}},
+          "  heightfield { field = fn(uv: vec2) = uv.x, cells = (2, 2) }\n"
+          "  mesh { file = \"plain.obj\" }\n}\n"}},
         {Diag::unbounded_solid, {"union {\n  sphere { }\n  plane { }\n}\n"}},
         {Diag::empty_solid,
          {"intersection {\n  sphere { }\n  sphere { center = (5, 0, 0) }\n}\nsphere { }\n"}},
@@ -82,7 +83,9 @@ const std::map<Diag, Case>& cases() {
          {"sphere { center = (frame, 0, 0) }\nrender { frames = 2..5 }\n",
           {"build", "s.scn", "-o", "s.ir", "--emit", "ir"}}},
         {Diag::raster_skipped, {"sphere { }\nrender { method = raster { } }\n"}},
-        {Diag::unsupported_setting, {"union {\n  sphere { }\n  mesh { file = \"plain.obj\" }\n}\n"}},
+        {Diag::unsupported_setting,
+         {"let relief = image { file = \"light.exr\", encoding = \"linear\" }\n"
+          "implicit { field = fn(p: vec3) = p.z - relief((p.x, p.y)).r, within = sphere { } }\n"}},
         {Diag::not_exportable, {tiny, export_blender}},
         {Diag::dropped, {tiny, export_with_drop}},
     };
