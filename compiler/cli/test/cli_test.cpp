@@ -68,7 +68,7 @@ TEST_F(CommandLine, WrongScenesExitWith1AndSayWhere) {
          "s.scn:1:30: error: `fov_y` takes an angle, this is a number [angle-expected]"},
         {"mesh { file = \"none.obj\" }", "s.scn:1:15: error: cannot read `none.obj`"},
         {"print(\"abc)\n", "s.scn:1:7: error: "},
-        {"spherical_camera { }", "not supported yet"},
+        {"sky_light { }", "not supported yet"},
     };
     for (const auto& [text, message] : cases) {
         write("s.scn", text);
