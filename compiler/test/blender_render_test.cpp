@@ -134,7 +134,7 @@ TEST_F(BlenderRender, LensesConvergeToTheSamePicture) {
             squares += std::pow(mean - double{ours.at(0, y)[x]}, 2);
         }
     }
-    EXPECT_LT(std::sqrt(squares / (64 * 48 * 3)), 8e-3);
+    EXPECT_LT(std::sqrt(squares / (64 * 48 * 3)), 6e-3);
 }
 
 TEST_F(BlenderRender, MirrorsAddWhatTheySeeAndLightsLeaveShadows) {

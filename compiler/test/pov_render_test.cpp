@@ -151,7 +151,7 @@ sphere { center = (1, 1, -4), material = phong { diffuse = rgb(0.2, 0.3, 0.8) } 
     for (std::size_t i = 0; i < mean.size(); ++i) {
         squares += std::pow(mean[i] - double{lens.pixels[i]}, 2);
     }
-    EXPECT_LT(std::sqrt(squares / static_cast<double>(mean.size())), 8e-3); // measured: see the commit
+    EXPECT_LT(std::sqrt(squares / static_cast<double>(mean.size())), 6e-3);
 }
 
 /// A row per shape, and where each stands in the picture.

@@ -372,16 +372,15 @@ TEST(Render, FiltersKeepASteadyPictureAndAreSymmetric) {
     EXPECT_LE(differing, 50); // a sample exactly on an edge may fall to either side, for 25 pixels
 }
 
-TEST(Render, CornersAreThePixelsOfALargerPicture) {
+TEST(Render, CornersAreTheCentresOfAWindowShiftedByHalfAPixel) {
     const LectureScene<double> scene;
     RenderRequest wanted = request(64, 48);
     wanted.settings.point = PixelPoint::corner;
     const Image corners = draw(scene, wanted);
-    // Two rows and columns more, of a window as much larger: its pixels' centres are half a pixel off.
-    DynamicScene<double> wider = generic_lecture_scene<double>();
-    wider.camera.shift_x = -0.5 / 48;
-    wider.camera.shift_y = -0.5 / 48;
-    const Image shifted = draw(wider, request(64, 48));
+    DynamicScene<double> moved = generic_lecture_scene<double>();
+    moved.camera.shift_x = -0.5 / 48;
+    moved.camera.shift_y = -0.5 / 48;
+    const Image shifted = draw(moved, request(64, 48));
     int differing = 0;
     for (std::size_t i = 0; i < corners.pixels.size(); ++i) {
         differing += std::abs(corners.pixels[i] - shifted.pixels[i]) > 1e-5F ? 1 : 0;
