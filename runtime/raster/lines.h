@@ -12,6 +12,26 @@
 /// Lines: clipped in homogeneous coordinates, drawn by the diamond exit rule of OpenGL.
 namespace scc::runtime::raster {
 
+namespace detail {
+
+/// The depth is that of the line before its ends are put on the grid, and changes along its longer direction.
+template <class R>
+ScreenLine<R> divided(const ClipPoint<R>& from, const ClipPoint<R>& to) {
+    const R x0 = from.x / from.w, y0 = from.y / from.w, z0 = from.z / from.w;
+    const R x1 = to.x / to.w, y1 = to.y / to.w, z1 = to.z / to.w;
+    ScreenLine<R> line{on_grid(x0), on_grid(y0), on_grid(x1), on_grid(y1), z0, R(0), 0, 0};
+    const bool across = runs_across(line);
+    const R length = across ? x1 - x0 : y1 - y0;
+    if (absolute(length) > R(1) / grid) {
+        const R centre = static_cast<R>((across ? line.x0 : line.y0) >> grid_bits) + R(0.5);
+        line.z_step = (z1 - z0) / length;
+        line.z = z0 + line.z_step * (centre - (across ? x0 : y0));
+    }
+    return line;
+}
+
+} // namespace detail
+
 /// Puts a model's segments into the bin.
 template <class R>
 void set_up_lines(const RasterModel<R>& model, const RasterView<R>& view, const TileGrid& tiles,
@@ -40,14 +60,8 @@ void set_up_lines(const RasterModel<R>& model, const RasterView<R>& view, const 
             continue;
         }
         const R width = segment.width * static_cast<R>(tiles.samples_across());
-        ScreenLine<R> line{on_grid(from.x / from.w),
-                           on_grid(from.y / from.w),
-                           on_grid(to.x / to.w),
-                           on_grid(to.y / to.w),
-                           from.z / from.w,
-                           to.z / to.w,
-                           here,
-                           0};
+        ScreenLine<R> line = detail::divided(from, to);
+        line.segment = here;
         line.width = std::max(1, static_cast<std::int32_t>(std::lround(std::min(width, view.guard()))));
         const std::int32_t around = line.width / 2 + 1;
         const SampleBox box{(std::min(line.x0, line.x1) >> grid_bits) - around,
@@ -75,7 +89,7 @@ constexpr std::int64_t floor_divide(std::int64_t a, std::int64_t b) {
 template <class R, class F>
 void draw_line(const ScreenLine<R>& line, const SampleBox& box, F&& f) {
     const std::int64_t dx = std::int64_t{line.x1} - line.x0, dy = std::int64_t{line.y1} - line.y0;
-    const bool across = std::abs(dx) >= std::abs(dy);
+    const bool across = runs_across(line);
     const std::int64_t length = std::abs(across ? dx : dy);
     if (length == 0) {
         return;
@@ -98,14 +112,14 @@ void draw_line(const ScreenLine<R>& line, const SampleBox& box, F&& f) {
     if (first < end && in_diamond(u1, v1, end - 1, v_row(end - 1))) {
         --end;
     }
+    const std::int64_t z_place = (across ? line.x0 : line.y0) >> grid_bits;
     // Of the box, so that long lines cost each tile its own part.
     const std::int64_t low = across ? box.x0 : box.y0, high = (across ? box.x1 : box.y1) - 1;
     const std::int64_t begin_u = std::max(first, sign > 0 ? low : -high),
                        end_u = std::min(end, (sign > 0 ? high : -low) + 1);
     for (std::int64_t u = begin_u; u < end_u; ++u) {
-        const R part = static_cast<R>(u * grid - u0) / static_cast<R>(length);
-        const R z = line.z0 + (line.z1 - line.z0) * part;
         const auto column = static_cast<std::int32_t>(sign * u);
+        const R z = line.z + line.z_step * static_cast<R>(column - z_place);
         // An even number of samples lies half a sample off.
         const std::int64_t middle =
             line.width % 2 == 1

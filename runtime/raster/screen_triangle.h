@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 
 /// Triangles and lines on the grid of samples, after the division.
 namespace scc::runtime::raster {
@@ -55,9 +56,16 @@ SampleBox box_of(const ScreenTriangle<R>& t) {
 template <class R>
 struct ScreenLine {
     std::int32_t x0, y0, x1, y1;
-    R z0, z1;
+    R z, z_step; ///< z* at the centre of the start's sample along the longer direction, and its change per
+                 ///< sample
     std::uint32_t segment; ///< of RasterModel::segments
     std::int32_t width;    ///< in samples
 };
+
+/// More across than down.
+template <class R>
+bool runs_across(const ScreenLine<R>& line) {
+    return std::abs(std::int64_t{line.x1} - line.x0) >= std::abs(std::int64_t{line.y1} - line.y0);
+}
 
 } // namespace scc::runtime::raster
