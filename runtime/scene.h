@@ -15,6 +15,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -53,12 +54,14 @@ struct SceneTraits {
     bool pixel_sampling =
         false;            ///< samples in other places than a grid's, other weights than a box's, or adaptive
     bool spectra = false; ///< drawn three wavelengths at a time (bands.h), which the kernels do not notice
+    bool raster = false;  ///< drawn by triangles and lines (raster/draw.h)
+    bool lines = false;   ///< where raster: it shows polylines, or edges (wireframe, hidden line)
 
     friend constexpr bool operator==(const SceneTraits&, const SceneTraits&) = default;
 };
 
-inline constexpr SceneTraits everything{~0U,  ~0U,  ~0U,  ~0U,  true, true, true, true, true,
-                                        true, true, true, true, true, true, true, true, true,
+inline constexpr SceneTraits everything{~0U,  ~0U,  ~0U,  ~0U,  true, true, true, true, true, true,
+                                        true, true, true, true, true, true, true, true, true, true,
                                         true, true, true, true, true, true, true, true, true};
 
 /// What every shape in a scene carries.
@@ -156,6 +159,15 @@ struct Accelerator {
 template <class Primitive>
 struct Of {};
 
+/// A chain of straight lines that a raster picture shows; rays do not meet it. Not lit.
+template <class R>
+struct Polyline {
+    std::vector<Vec3<R>> points; ///< in the world, from end to end
+    Rgb<R> color{1, 1, 1};
+    R width = 1; ///< in pixels
+    Tag tag{};   ///< its id; lines have no sides
+};
+
 /// The parts of a scene that most scenes lack, for a scene type to inherit and to hide.
 template <class R>
 struct SceneBase {
@@ -175,6 +187,7 @@ struct SceneBase {
     static constexpr std::array<SpotLight<R>, 0> spot_lights{};
     static constexpr std::array<RectangleLight<R>, 0> rectangle_lights{};
     static constexpr std::array<MeshData, 0> meshes{};
+    static constexpr std::span<const Polyline<R>> polylines{};
     static constexpr bool reads_uv = true; ///< where traits.uv: some function does
     static constexpr Camera<R> camera{};
     static constexpr Rgb<R> ambient{};
@@ -227,6 +240,7 @@ struct SceneBase {
 ///             }
 ///         }
 ///         static inline std::vector<MeshData> meshes; // only with meshes: read before rendering
+///         static inline const std::vector<Polyline<R>> polylines{...}; // only with traits.lines
 ///         static inline std::vector<ImageData> images; // only with images: for the functions
 ///         Accelerator accelerator;         // only with traits.accelerator: filled by prepare(scene)
 ///     };
@@ -242,6 +256,7 @@ concept SceneModel = requires(const S& s, const SurfacePoint<typename S::Real>& 
     s.spot_lights.size();
     s.rectangle_lights.size();
     s.meshes.size();
+    s.polylines.size();
     { s.camera } -> std::convertible_to<Camera<typename S::Real>>;
     { s.ambient } -> std::convertible_to<Rgb<typename S::Real>>;
     { s.background } -> std::convertible_to<Rgb<typename S::Real>>;
@@ -274,6 +289,7 @@ struct DynamicScene {
     std::vector<SpotLight<R>> spot_lights;
     std::vector<RectangleLight<R>> rectangle_lights;
     std::vector<MeshData> meshes;
+    std::vector<Polyline<R>> polylines;
     std::vector<FunctionProgram<R>> functions; ///< Varying::function indexes it
     bool reads_uv = false;                     ///< some function does
     Camera<R> camera;

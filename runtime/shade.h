@@ -1,10 +1,9 @@
 #pragma once
 
 #include "runtime/accel/occluders.h"
-#include "runtime/encounter.h"
-#include "runtime/illumination.h"
 #include "runtime/media.h"
 #include "runtime/render_request.h"
+#include "runtime/surface_light.h"
 
 #include <algorithm>
 #include <array>
@@ -17,39 +16,6 @@ namespace scc::runtime {
 
 namespace detail {
 
-/// Constant tables of lights up to this size are unrolled.
-inline constexpr std::size_t unrolled_lights = 4;
-
-/// f(light, its index) for each.
-template <class Table, class F>
-void for_each_light(const Table& table, F&& f) {
-    constexpr std::size_t size = constant_size<Table>;
-    if constexpr (size > 0 && size <= unrolled_lights) {
-        [&]<std::size_t... i>(std::index_sequence<i...>) {
-            (f(table[i], i), ...);
-        }
-        (std::make_index_sequence<size>{});
-    } else {
-        for (std::size_t i = 0; i < table.size(); ++i) {
-            f(table[i], i);
-        }
-    }
-}
-
-template <class L>
-MaskOf<L> is_black(const Rgb<L>& c) {
-    return (c.r == 0) & (c.g == 0) & (c.b == 0);
-}
-
-/// A material's fields at a point.
-template <class L>
-struct Reflectances {
-    Rgb<L> ambient, diffuse, specular, emission, reflect, transmit;
-    L shininess;
-    L ior;
-    L fresnel; ///< 1 or 0
-};
-
 /// Where a ray goes on in two directions, one that could change a pixel by no more than this part of what is
 /// seen there is not followed: else their number doubles with each bounce.
 template <class R>
@@ -58,12 +24,6 @@ inline constexpr R least_weight = R(1e-9);
 /// Strictly between: what the light itself lies on does not shadow it, up to the rounding of t.
 template <class R>
 inline constexpr R before_the_light = 1 - 32 * std::numeric_limits<R>::epsilon();
-
-/// What a Shader tells of each ray: nothing. One that `observes` has the functions that the Shader calls (see
-/// explain_pixel.h); its lanes are one, and its scene has everything.
-struct Unobserved {
-    static constexpr bool observes = false;
-};
 
 template <SceneModel S, class L, class Observer = Unobserved>
 class Shader {
@@ -75,16 +35,11 @@ public:
 
     Shader(const S& scene, const RenderSettings& settings, RayCounts& counts, Observer observer = {})
         : scene_(scene), depth_(settings.depth), shadows_(settings.shadows), counts_(counts),
-          observer_(observer) {
+          observer_(observer), grid_points_(grid_points_of(scene)) {
         if constexpr (S::traits.transmission) {
             for (const Phong<R>& material : scene.materials) {
                 transmits_ = transmits_ || lets_through(material);
                 refracts_ = refracts_ || refracts(material);
-            }
-        }
-        if constexpr (S::traits.rectangle_lights) {
-            for (const auto& light : scene.rectangle_lights) {
-                for_each_point(light, [&](const PointLight<R>& point) { grid_points_.push_back(point); });
             }
         }
         if constexpr (S::traits.shadows && !has_hierarchy<S>) {
@@ -136,7 +91,7 @@ public:
                 if (any(pack.active)) {
                     goes_on = true;
                     meet(rays[i], hits[i], pack);
-                    look_up(pack);
+                    look_up(scene_, pack.at.material, pack.at.point, pack.active, pack.material);
                     if constexpr (Observer::observes) {
                         observer_.tell([&](auto& o) { o.met(hits[i], pack.at, pack.material); });
                     }
@@ -212,65 +167,6 @@ private:
             reads_uv = scene_.reads_uv;
         }
         detail::meet<parts>(scene_, ray, hit, pack.active, reads_uv, pack.at);
-    }
-
-    Rgb<L> value(const Varying<Rgb<R>>& field, const SurfacePoint<L>& point) const {
-        if constexpr (S::traits.functions) {
-            if (field.function != no_function) {
-                return scene_.color_function(field.function, point);
-            }
-        }
-        return lanes<L>(field.value);
-    }
-    L value(const Varying<R>& field, const SurfacePoint<L>& point) const {
-        if constexpr (S::traits.functions) {
-            if (field.function != no_function) {
-                return scene_.number_function(field.function, point);
-            }
-        }
-        return L(field.value);
-    }
-
-    /// f(material, lanes, whether it is the first) for each that one of the active lanes has met.
-    template <class F>
-    void for_each_material(const Pack& pack, F&& f) const {
-        const IndexOf<L>& materials = pack.at.material;
-        bool first = true;
-        Mask among = pack.active;
-        do {
-            const std::uint32_t index = lane(materials, first_lane(among));
-            const Mask here = among & (materials == IndexOf<L>(index));
-            f(scene_.materials[index], here, first);
-            first = false;
-            among = among & !here;
-        } while (any(among));
-    }
-
-    /// Fills in `pack.material`.
-    void look_up(Pack& pack) const {
-        const Encounter<L>& at = pack.at;
-        Reflectances<L>& result = pack.material;
-        for_each_material(pack, [&](const Phong<R>& material, const Mask& here, bool first) {
-            put(first, here, value(material.ambient, at.point), result.ambient);
-            put(first, here, value(material.diffuse, at.point), result.diffuse);
-            if constexpr (S::traits.emission) {
-                put(first, here, value(material.emission, at.point), result.emission);
-            }
-            if constexpr (S::traits.specular) {
-                put(first, here, value(material.specular, at.point), result.specular);
-                put(first, here, value(material.shininess, at.point), result.shininess);
-            }
-            if constexpr (S::traits.reflection) {
-                put(first, here, value(material.reflect, at.point), result.reflect);
-            }
-            if constexpr (S::traits.transmission) {
-                put(first, here, value(material.transmit, at.point), result.transmit);
-            }
-            if constexpr (S::traits.refraction) {
-                put(first, here, L(material.ior), result.ior);
-                put(first, here, L(truth(material.fresnel)), result.fresnel);
-            }
-        });
     }
 
     void start(Packs& packs, const std::array<Ray<L>, N>& rays) {
@@ -499,10 +395,7 @@ private:
             if (none(pack.active)) {
                 continue;
             }
-            pack.light = lanes<L>(scene_.ambient) * pack.material.ambient;
-            if constexpr (S::traits.emission) {
-                pack.light = pack.light + pack.material.emission;
-            }
+            pack.light = own_light(scene_, pack.material);
         }
         const auto add_light = [&](const auto& light, std::size_t index) { add(light, index, packs, rays); };
         if constexpr (S::traits.point_lights) {
@@ -538,10 +431,7 @@ private:
             }
             seen[i] = light_at(light, packs[i].at.surface.point);
             cosine[i] = dot(seen[i].to_light, packs[i].at.normal);
-            lit[i] = lit[i] & (cosine[i] > 0);
-            if constexpr (requires { light.cos_outer; }) {
-                lit[i] = lit[i] & (cone_cosine(light, seen[i].to_light) > L(light.cos_outer));
-            }
+            lit[i] = lit_lanes(light, seen[i], cosine[i], lit[i]);
             if constexpr (Observer::observes) {
                 observer_.tell([&](auto& o) { o.light(light, seen[i], cosine[i], lit[i]); });
             }
@@ -561,32 +451,8 @@ private:
     template <class Light>
     void add(const Light& light, Pack& pack, const Vec3<L>& dir, const LightAt<L>& seen, const L& cosine,
              const Mask& lit) const {
-        const Reflectances<L>& material = pack.material;
-        Rgb<L> reflected = lanes<L>(light.diffuse) * material.diffuse * cosine;
-        if constexpr (Observer::observes) {
-            observer_.tell([&](auto& o) { o.diffuse(reflected); });
-        }
-        if constexpr (S::traits.specular) {
-            const Mask highlit = lit & !is_black(material.specular);
-            if (any(highlit)) {
-                const Rgb<L> color = lanes<L>(S::traits.separate_specular ? light.specular : light.diffuse);
-                const L strength =
-                    highlight(pack.at.normal, seen.to_light, -normalize(dir), material.shininess);
-                reflected = choose(highlit, reflected + color * material.specular * strength, reflected);
-                if constexpr (Observer::observes) {
-                    observer_.tell(
-                        [&](auto& o) { o.specular(strength, color * material.specular * strength); });
-                }
-            }
-        }
-        if constexpr (S::traits.attenuation && requires { light.kc; }) {
-            if (is_attenuated(light)) {
-                reflected = reflected / attenuation(light, seen.distance);
-            }
-        }
-        if constexpr (requires { light.cos_outer; }) {
-            reflected = reflected * cone_share(light, cone_cosine(light, seen.to_light));
-        }
+        Rgb<L> reflected =
+            reflected_light<S>(light, pack.material, pack.at.normal, dir, seen, cosine, lit, observer_);
         if constexpr (S::traits.transmission && S::traits.shadows) {
             reflected = reflected * pack.filter;
         }
@@ -689,9 +555,11 @@ private:
         pack.active = open;
         meet(ray, hit, pack);
         Rgb<L> transmit;
-        for_each_material(pack, [&](const Phong<R>& material, const Mask& here, bool first) {
-            put(first, here, value(material.transmit, pack.at.point), transmit);
-        });
+        for_each_material<L>(scene_, pack.at.material, pack.active,
+                             [&](const Phong<R>& material, const Mask& here, bool first) {
+                                 put(first, here, value_at(scene_, material.transmit, pack.at.point),
+                                     transmit);
+                             });
         filter = choose(open, filter * transmit, filter);
         ray = feeler(light, pack.at.surface);
     }
