@@ -35,6 +35,11 @@ public:
     std::vector<runtime::Sides> sides(const lang::ThingRows& rows, const lang::ThingPtr& material,
                                       const Owner& owner);
 
+    /// A colour that is seen as it is.
+    runtime::Rgb<double> shown(const lang::Value& color) const {
+        return rec709_.rendered(color, ColorRole::light);
+    }
+
     /// Whether some material has a spectrum.
     bool has_spectra() const { return has_spectra_; }
     /// Gives every material of the scene its colours in these too.

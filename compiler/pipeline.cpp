@@ -85,6 +85,7 @@ LowerOptions lower_options(const SceneOptions& options, const std::vector<lang::
     LowerOptions result;
     result.name = fs::path(options.file).stem().string();
     result.camera = options.camera;
+    result.method = options.method;
     result.keep_meshes = options.keep_meshes;
     result.assets = asset_policy(options, definitions);
     for (const lang::FileId file : loaded.module.imports) {

@@ -21,9 +21,10 @@ struct SceneOptions {
     std::vector<std::string> definitions; ///< -D name=value
     std::vector<std::string> asset_paths;
     std::string camera;
-    std::optional<std::int64_t> frame; ///< of an animated scene; nothing: its first
-    bool keep_meshes = true;           ///< in the user's cache
-    bool tells_frame = true;           ///< of an animated scene, which one was taken
+    std::optional<runtime::Method> method; ///< nothing: that of the scene's first render
+    std::optional<std::int64_t> frame;     ///< of an animated scene; nothing: its first
+    bool keep_meshes = true;               ///< in the user's cache
+    bool tells_frame = true;               ///< of an animated scene, which one was taken
     /// Texts that stand for the content of files; null: none.
     const std::map<std::string, std::string>* texts = nullptr;
     bool only_texts = false; ///< scene files are not read: those are all

@@ -68,7 +68,7 @@ double farthest_depth(const ir::Scene& scene) {
     double farthest = 0;
     for_each_box(scene, [&](const std::optional<Box>& bounds, const auto&, const auto&) {
         if (!bounds) {
-            farthest = scene.far;
+            farthest = scene.camera.far;
             return;
         }
         const Box& box = *bounds;
@@ -78,7 +78,7 @@ double farthest_depth(const ir::Scene& scene) {
             farthest = std::max(farthest, dot(scene.camera.eye - p, scene.camera.n));
         }
     });
-    return std::min(farthest, scene.far);
+    return std::min(farthest, scene.camera.far);
 }
 
 /// Where the author chose the range of depths; else the camera.
@@ -99,8 +99,8 @@ lang::Span depth_range_span(const lang::Module& module, lang::Span camera) {
 /// L4: at the depth d the pseudodepth changes by 2 far near / ((far - near) d^2) per unit of depth, and -1..1
 /// is divided into depth_steps.
 void check_depth(const lang::Module& module, const ir::Scene& scene, lang::Diagnostics& diagnostics) {
-    const double near = scene.near;
-    const double far = scene.far;
+    const double near = scene.camera.near;
+    const double far = scene.camera.far;
     const auto resolved_at = [&](double d) { return d * d * (far - near) / (far * near * depth_steps); };
     const auto pixel_at = [&](double d) { return 2 * scene.camera.half_height * d / scene.settings.height; };
     if (scene.camera.projection != runtime::Projection::perspective || resolved_at(far) <= pixel_at(far)) {
@@ -118,6 +118,32 @@ void check_depth(const lang::Module& module, const ir::Scene& scene, lang::Diagn
                            fmt::format("{:.6g}", near), fmt::format("{:.4g}", depth),
                            fmt::format("{:.2g}", resolved), fmt::format("{:.2g}", pixel),
                            fmt::format("{:.1g}", 2 * enough));
+    }
+}
+
+/// Raster mode makes triangles of everything but planes, which a surface without end has no number of.
+void check_raster(const ir::Scene& scene, lang::Diagnostics& diagnostics) {
+    if (scene.settings.method != runtime::Method::raster) {
+        return;
+    }
+    const auto is_endless = [&](const ir::Object& object) {
+        return std::holds_alternative<runtime::Quadric<double>>(object.shape) &&
+               !object_bounds(object.shape, scene);
+    };
+    for (const ir::Object& object : scene.objects) {
+        const auto* solid = std::get_if<runtime::Csg<double>>(&object.shape);
+        bool is_left_out = is_endless(object);
+        if (solid != nullptr) {
+            ir::for_each_csg_node(scene, *solid, [&](const ir::CsgNode& node) {
+                is_left_out = is_left_out ||
+                              (node.op == runtime::CsgOp::member && is_endless(scene.members[node.member]));
+            });
+        }
+        if (is_left_out) {
+            diagnostics.report(Diag::raster_unbounded, object.span,
+                               solid != nullptr ? "one of its quadrics has no `within`"
+                                                : "`within` gives a quadric bounds");
+        }
     }
 }
 
@@ -186,6 +212,7 @@ void check_bodies(const ir::Scene& scene, lang::Diagnostics& diagnostics) {
 void check_scene(const lang::Module& module, const ir::Scene& scene, lang::Diagnostics& diagnostics) {
     check_depth(module, scene, diagnostics);
     check_distance(scene, diagnostics);
+    check_raster(scene, diagnostics);
     check_coincident_faces(scene, diagnostics);
     check_bodies(scene, diagnostics);
 }

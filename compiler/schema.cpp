@@ -651,7 +651,7 @@ Constructor ray() {
                                 .type = TypeKind::number,
                                 .default_value = number(5),
                                 .limits = {.min = 0,
-                                           .max = 200,
+                                           .max = runtime::most_bounces,
                                            .integer = true,
                                            .rule = "a depth is a whole number from 0 to 200"},
                                 .doc = "mirrors and refractions one after the other; 0: none"},

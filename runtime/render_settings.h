@@ -52,6 +52,11 @@ constexpr Choice choice_of(const std::array<std::string_view, n>& names, std::st
     return static_cast<Choice>(i);
 }
 
+/// Whether it shows the edges of polygons.
+constexpr bool shows_edges(RasterShading shading) {
+    return shading == RasterShading::wireframe || shading == RasterShading::hidden_line;
+}
+
 /// What Method::raster is told beside.
 struct RasterSettings {
     RasterShading shading = RasterShading::phong;
@@ -81,6 +86,7 @@ struct RenderSettings {
 };
 
 inline constexpr int most_samples = 4096;
+inline constexpr int most_bounces = 200; ///< of RenderSettings::depth
 
 /// n of n x n; the nearest one for what is no square number.
 inline int samples_per_axis(const RenderSettings& settings) {

@@ -159,13 +159,12 @@ struct Accelerator {
 template <class Primitive>
 struct Of {};
 
-/// A chain of straight lines that a raster picture shows; rays do not meet it. Not lit.
+/// A straight piece of a line that a raster picture shows, in the world; rays do not meet it. Not lit.
 template <class R>
-struct Polyline {
-    std::vector<Vec3<R>> points; ///< in the world, from end to end
+struct LineSegment {
+    Vec3<R> from{}, to{};
     Rgb<R> color{1, 1, 1};
     R width = 1; ///< in pixels
-    Tag tag{};   ///< its id; lines have no sides
 };
 
 /// The parts of a scene that most scenes lack, for a scene type to inherit and to hide.
@@ -187,7 +186,7 @@ struct SceneBase {
     static constexpr std::array<SpotLight<R>, 0> spot_lights{};
     static constexpr std::array<RectangleLight<R>, 0> rectangle_lights{};
     static constexpr std::array<MeshData, 0> meshes{};
-    static constexpr std::span<const Polyline<R>> polylines{};
+    static constexpr std::array<LineSegment<R>, 0> line_segments{};
     static constexpr bool reads_uv = true; ///< where traits.uv: some function does
     static constexpr Camera<R> camera{};
     static constexpr Rgb<R> ambient{};
@@ -240,7 +239,7 @@ struct SceneBase {
 ///             }
 ///         }
 ///         static inline std::vector<MeshData> meshes; // only with meshes: read before rendering
-///         static inline const std::vector<Polyline<R>> polylines{...}; // only with traits.lines
+///         static constexpr std::array<LineSegment<R>, ...> line_segments{...}; // only with traits.lines
 ///         static inline std::vector<ImageData> images; // only with images: for the functions
 ///         Accelerator accelerator;         // only with traits.accelerator: filled by prepare(scene)
 ///     };
@@ -256,7 +255,7 @@ concept SceneModel = requires(const S& s, const SurfacePoint<typename S::Real>& 
     s.spot_lights.size();
     s.rectangle_lights.size();
     s.meshes.size();
-    s.polylines.size();
+    s.line_segments.size();
     { s.camera } -> std::convertible_to<Camera<typename S::Real>>;
     { s.ambient } -> std::convertible_to<Rgb<typename S::Real>>;
     { s.background } -> std::convertible_to<Rgb<typename S::Real>>;
@@ -289,7 +288,7 @@ struct DynamicScene {
     std::vector<SpotLight<R>> spot_lights;
     std::vector<RectangleLight<R>> rectangle_lights;
     std::vector<MeshData> meshes;
-    std::vector<Polyline<R>> polylines;
+    std::vector<LineSegment<R>> line_segments;
     std::vector<FunctionProgram<R>> functions; ///< Varying::function indexes it
     bool reads_uv = false;                     ///< some function does
     Camera<R> camera;

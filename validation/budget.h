@@ -12,7 +12,7 @@ namespace scc::validation {
 /// What a renderer's image may differ from ours by. Derived from the measured floor of that renderer, see
 /// budget.cpp.
 struct Budget {
-    std::string renderer; ///< "native", "pov", "blender"
+    std::string renderer; ///< "native", "pov", "blender", "opengl"
     double max_error = 0; ///< of all pixels but `outliers`; infinite: no such limit
     std::size_t outliers = 0;
     std::optional<double> max_away_from_edges;

@@ -286,7 +286,7 @@ private:
             add(fits_after_shift()
                     ? Account{Fidelity::exact, "the window is shifted by half a pixel"}
                     : Account{Fidelity::dropped, "Cycles' panoramas end at the poles and behind"},
-                "sampling", "render", scene_.sampling_span);
+                "sampling", "render", scene_.method_span);
         }
         if (needs_.extent < smallest_scene) {
             add({Fidelity::dropped, "Blender's camera sees nothing nearer than 1e-6"}, "scale", "scene",

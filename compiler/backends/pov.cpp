@@ -164,7 +164,7 @@ private:
                  "POV-Ray's own focal blur is another lens (4e-2 off, root mean square, at 500 points)");
         }
         if (scene_.settings.point == runtime::PixelPoint::corner) {
-            note(windowed ? Fidelity::exact : Fidelity::dropped, "sampling", "render", scene_.sampling_span,
+            note(windowed ? Fidelity::exact : Fidelity::dropped, "sampling", "render", scene_.method_span,
                  windowed ? "the window is shifted by half a pixel"
                           : "POV-Ray's spherical camera has no latitudes but those around its direction");
         }

@@ -253,7 +253,7 @@ std::string journey_text(const Loaded& loaded, const Journey& j, const std::stri
     out += fmt::format("  NDC       / w = {}\n", text(j.ndc));
     out += fmt::format("  picture   S = column {}, row {} from the top, depth {}\n", text(j.pixel[0]),
                        text(j.pixel[1]), text(j.pixel[2]));
-    const double z = j.camera[2], near = scene.near, far = scene.far;
+    const double z = j.camera[2], near = scene.camera.near, far = scene.camera.far;
     if (scene.camera.projection == runtime::Projection::perspective) {
         out += fmt::format("  By similar triangles (L3): P'y = Py near / -Pz = {} * {} / {} = {}; the plane "
                            "at near reaches to "
@@ -290,7 +290,7 @@ std::string matrices_text(const Loaded& loaded, const Stages& s, const Author& a
     const double aspect = static_cast<double>(width) / height;
     out +=
         fmt::format("\nPROJECTION (L3, L4): camera coordinates to clip coordinates; near = {}, far = {}\n  ",
-                    text(scene.near), text(scene.far));
+                    text(scene.camera.near), text(scene.camera.far));
     out +=
         perspective
             ? fmt::format("half extents at distance 1: H = tan(fov_y / 2) = {}, W = H width / height = {}\n",
@@ -332,8 +332,8 @@ std::string matrices_json(const Loaded& loaded, const Stages& s, int width, int 
     const Json json{{"schema", 1},
                     {"scene", loaded.scene.name},
                     {"size", {width, height}},
-                    {"near", loaded.scene.near},
-                    {"far", loaded.scene.far},
+                    {"near", loaded.scene.camera.near},
+                    {"far", loaded.scene.camera.far},
                     {"model", models},
                     {"view", json_of(s.view)},
                     {"projection", json_of(s.projection)},
@@ -356,7 +356,7 @@ std::string explain_matrices(const Loaded& loaded, const ExplainOptions& options
         options.render.size.value_or(std::pair{scene.settings.width, scene.settings.height});
     const double aspect = static_cast<double>(width) / height;
     Stages s{view_of(scene.camera),
-             projection_of(scene.camera, scene.near, scene.far, aspect),
+             projection_of(scene.camera, scene.camera.near, scene.camera.far, aspect),
              viewport_of(width, height),
              {},
              {}};

@@ -41,6 +41,8 @@ inline constexpr auto trait_flags = std::to_array<TraitFlag>({
     {"lens", &runtime::SceneTraits::lens},
     {"pixel_sampling", &runtime::SceneTraits::pixel_sampling},
     {"spectra", &runtime::SceneTraits::spectra},
+    {"raster", &runtime::SceneTraits::raster},
+    {"lines", &runtime::SceneTraits::lines},
 });
 
 /// What a scene needs, in words: "sphere", "box (transformed)", "point_lights".

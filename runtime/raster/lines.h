@@ -40,7 +40,7 @@ void set_up_lines(const RasterModel<R>& model, const RasterView<R>& view, const 
     const SampleBox& window = tiles.box();
     const R one = 1;
     std::uint32_t number = 0;
-    for (const RasterSegment<R>& segment : model.segments) {
+    for (const LineSegment<R>& segment : model.segments) {
         const std::uint32_t here = number++;
         ClipPoint<R> from = view.to_clip(view.to_eye(segment.from, one)),
                      to = view.to_clip(view.to_eye(segment.to, one));

@@ -274,17 +274,13 @@ private:
     }
 
     void add_lines() {
-        const RasterShading shading = settings_.raster.shading;
-        if (shading == RasterShading::wireframe || shading == RasterShading::hidden_line) {
+        if (shows_edges(settings_.raster.shading)) {
             for (const RasterSurface<R>& surface : model_.surfaces) {
                 raster::add_edges(scene_, surface, model_);
             }
         }
-        for (const Polyline<R>& line : scene_.polylines) {
-            for (std::size_t i = 1; i < line.points.size(); ++i) {
-                model_.segments.push_back({line.points[i - 1], line.points[i], line.color, line.width});
-            }
-        }
+        model_.segments.insert(model_.segments.end(), scene_.line_segments.begin(),
+                               scene_.line_segments.end());
     }
 
     const S& scene_;

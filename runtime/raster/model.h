@@ -33,14 +33,6 @@ struct RasterSurface {
     Affine<R> object_from_world{};
 };
 
-/// A straight piece of a line, in the world.
-template <class R>
-struct RasterSegment {
-    Vec3<R> from, to;
-    Rgb<R> color{};
-    R width = 1; ///< in pixels
-};
-
 template <class R>
 struct RasterModel {
     std::vector<RasterSurface<R>> surfaces; ///< in the order of their ids
@@ -48,7 +40,7 @@ struct RasterModel {
     std::vector<Vec3<R>> normals;           ///< unit, exact
     std::vector<RasterTriangle> triangles;
     std::vector<std::vector<std::uint32_t>> mesh_parts; ///< of each mesh: ShapeHit::part of its triangles
-    std::vector<RasterSegment<R>> segments;             ///< edges of polygons, and polylines
+    std::vector<LineSegment<R>> segments;               ///< edges of polygons, and polylines
     std::uint32_t triangle_count = 0;                   ///< of all surfaces
     std::vector<std::uint32_t> left_out; ///< ids of what has no mesh: unbounded quadrics and solids of them
 };

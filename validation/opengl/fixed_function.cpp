@@ -21,10 +21,10 @@ namespace scc::validation {
 namespace {
 
 using runtime::Camera;
+using runtime::LineSegment;
 using runtime::Phong;
 using runtime::Projection;
 using runtime::RasterModel;
-using runtime::RasterSegment;
 using runtime::RasterSurface;
 using runtime::RenderSettings;
 using runtime::Rgb;
@@ -170,7 +170,7 @@ public:
     }
     void draw_lines(int samples_across) {
         glDisable(GL_LIGHTING);
-        for (const RasterSegment<double>& line : model_.segments) {
+        for (const LineSegment<double>& line : model_.segments) {
             glLineWidth(static_cast<float>(line.width * samples_across));
             glBegin(GL_LINES);
             glColor4fv(numbers(line.color, 1).data());

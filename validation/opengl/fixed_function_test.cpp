@@ -37,8 +37,8 @@ struct OpenGlScene : SceneBase<double> {
                                         .lines = true};
     explicit OpenGlScene(const Dynamic& scene)
         : dynamic(scene), materials(scene.materials), point_lights(scene.point_lights),
-          directional_lights(scene.directional_lights), polylines(scene.polylines), camera(scene.camera),
-          ambient(scene.ambient), background(scene.background) {}
+          directional_lights(scene.directional_lights), line_segments(scene.line_segments),
+          camera(scene.camera), ambient(scene.ambient), background(scene.background) {}
 
     template <class Primitive>
     const std::vector<Primitive>& primitives(Of<Primitive> table) const {
@@ -50,7 +50,7 @@ struct OpenGlScene : SceneBase<double> {
     const std::vector<Phong<double>>& materials;
     const std::vector<PointLight<double>>& point_lights;
     const std::vector<DirectionalLight<double>>& directional_lights;
-    const std::vector<Polyline<double>>& polylines;
+    const std::vector<LineSegment<double>>& line_segments;
     Camera<double> camera;
     Rgb<double> ambient, background;
 };
@@ -106,7 +106,7 @@ struct Comparison {
         scene.add(Bare<Shape>{shape, {next_++, sides}});
     }
     void line(const Vec3<double>& from, const Vec3<double>& to) {
-        scene.polylines.push_back({{from, to}, {0.2, 0.9, 0.4}, 1, {next_++, {}}});
+        scene.line_segments.push_back({from, to, {0.2, 0.9, 0.4}, 1});
     }
 
     void expect_agreement() const {

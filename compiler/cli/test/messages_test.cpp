@@ -82,7 +82,11 @@ const std::map<Diag, Case>& cases() {
         {Diag::one_frame,
          {"sphere { center = (frame, 0, 0) }\nrender { frames = 2..5 }\n",
           {"build", "s.scn", "-o", "s.ir", "--emit", "ir"}}},
-        {Diag::raster_skipped, {"sphere { }\nrender { method = raster { } }\n"}},
+        {Diag::render_left_out, {"sphere { }\nrender { }\nrender { method = raster { } }\n"}},
+        {Diag::raster_needs_plane, {"sphere { }\nspherical_camera { }\nrender { method = raster { } }\n"}},
+        {Diag::raster_has_no_lens,
+         {"sphere { }\nperspective_camera { aperture = 0.1 }\nrender { method = raster { } }\n"}},
+        {Diag::raster_unbounded, {"quadric { squares = (1, -1, 0) }\nrender { method = raster { } }\n"}},
         {Diag::unsupported_setting,
          {"let relief = image { file = \"light.exr\", encoding = \"linear\" }\n"
           "implicit { field = fn(p: vec3) = p.z - relief((p.x, p.y)).r, within = sphere { } }\n"}},
