@@ -11,4 +11,7 @@ namespace scc::compiler {
 /// operator has no formula for them: `noise`.
 std::optional<ir::Function> with_gradient(const ir::Function& function);
 
+/// Whether the function, of one number, varies somewhere other than in steps, whatever it reads.
+bool has_slope(const ir::Function& function);
+
 } // namespace scc::compiler

@@ -183,7 +183,8 @@ private:
         line(depth + 1, "point {}, exact within +- {}", text(ray.point), text(ray.error));
         line(depth + 1, "m = {}, the normal towards the viewer{}", text(ray.shading_normal),
              length(cross(ray.normal, ray.shading_normal)) > 1e-5
-                 ? fmt::format(" (interpolated; the surface's own is {})", text(ray.normal))
+                 ? fmt::format(" ({}; the surface's own is {})", ray.is_bumped ? "bumped" : "interpolated",
+                               text(ray.normal))
                  : "");
         line(depth + 1, "v = {}, towards the viewer", text(-normalize(ray.dir)));
     }

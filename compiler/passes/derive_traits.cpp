@@ -58,6 +58,7 @@ void need(SceneTraits& traits, const runtime::Phong<double>& p, const ir::Scene&
     traits.reflection |= scene.settings.depth > 0 && is_present(p.reflect);
     traits.transmission |= lets_through(p);
     traits.refraction |= refracts(p);
+    traits.bump |= p.bump != runtime::no_function;
     for (const std::int32_t function : ir::functions_of(p)) {
         if (function != runtime::no_function) {
             traits.functions = true;
