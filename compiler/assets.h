@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -14,6 +15,8 @@ struct AssetPolicy {
     std::filesystem::path scene_folder;
     std::vector<std::filesystem::path> asset_paths;
     std::set<std::string> named_by_user; ///< values of -D
+    /// Where the files that are found are written down, as they are opened; null: nowhere.
+    std::shared_ptr<std::set<std::filesystem::path>> found{};
 };
 
 enum class AssetStatus { found, missing, outside };

@@ -70,8 +70,10 @@ std::vector<lang::Definition> parse_definitions(const std::vector<std::string>& 
     return definitions;
 }
 
-AssetPolicy asset_policy(const SceneOptions& options, const std::vector<lang::Definition>& definitions) {
+AssetPolicy asset_policy(const SceneOptions& options, const std::vector<lang::Definition>& definitions,
+                         const Loaded& loaded) {
     AssetPolicy policy;
+    policy.found = loaded.assets;
     policy.scene_folder = fs::path(options.file).parent_path();
     policy.asset_paths.assign(options.asset_paths.begin(), options.asset_paths.end());
     for (const lang::Definition& definition : definitions) {
@@ -86,7 +88,7 @@ LowerOptions lower_options(const SceneOptions& options, const std::vector<lang::
     result.name = fs::path(options.file).stem().string();
     result.camera = options.camera;
     result.keep_meshes = options.keep_meshes;
-    result.assets = asset_policy(options, definitions);
+    result.assets = asset_policy(options, definitions, loaded);
     for (const lang::FileId file : loaded.module.imports) {
         result.import_folders[file] = fs::path(loaded.sources.file(file).path()).parent_path();
     }
@@ -131,11 +133,12 @@ std::string read_text(const SceneOptions& options, const std::string& path) {
 }
 
 std::unique_ptr<lang::Importer> make_importer(const SceneOptions& options,
-                                              const std::vector<lang::Definition>& definitions) {
+                                              const std::vector<lang::Definition>& definitions,
+                                              const Loaded& loaded) {
     if (options.only_texts) {
         return std::make_unique<TextImporter>(*options.texts);
     }
-    return std::make_unique<FileImporter>(asset_policy(options, definitions));
+    return std::make_unique<FileImporter>(asset_policy(options, definitions, loaded));
 }
 
 // Runs one stage and notes how long it took.
@@ -167,9 +170,9 @@ Loaded load(const SceneOptions& options, Stage last) {
     if (last < Stage::module) {
         return loaded;
     }
-    ImageTable images(asset_policy(options, definitions), loaded.sources, loaded.diagnostics);
+    ImageTable images(asset_policy(options, definitions, loaded), loaded.sources, loaded.diagnostics);
     timed(loaded, "check", [&] {
-        const std::unique_ptr<lang::Importer> importer = make_importer(options, definitions);
+        const std::unique_ptr<lang::Importer> importer = make_importer(options, definitions, loaded);
         loaded.module = lang::check(loaded.tree, scene_schema(), definitions, loaded.sources,
                                     loaded.diagnostics, {}, importer.get(), options.frame, &images);
     });

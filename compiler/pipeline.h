@@ -6,9 +6,11 @@
 #include "lang/diagnostic.h"
 #include "lang/lexer.h"
 
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,6 +40,9 @@ struct Loaded {
     lang::Module module;
     ir::Scene scene;
     std::vector<std::pair<std::string, double>> times_ms;
+    /// Imports, meshes and images that were found, but not the scene's own file.
+    std::shared_ptr<std::set<std::filesystem::path>> assets =
+        std::make_shared<std::set<std::filesystem::path>>();
 };
 
 /// `lowered`: a scene that the passes have not run over.
