@@ -1,5 +1,6 @@
 #pragma once
 
+#include "runtime/illumination.h"
 #include "runtime/primitive.h"
 
 /// Bumps: the surface is shaded as if it were displaced along its outward normal by a height in world units.
@@ -52,7 +53,7 @@ Refraction<L> refract_bumped(const Vec3<L>& dir, const Vec3<L>& normal, const Ve
     const Refraction<L> bumped = refract(dir, normal, from, to), flat = refract(dir, facing, from, to);
     const MaskOf<L> is_wrong = (dot(dir, normal) > 0) | (dot(bumped.dir, facing) > 0);
     return {choose(is_wrong, flat.dir, bumped.dir), choose(is_wrong, flat.reflectance, bumped.reflectance),
-            (is_wrong & flat.is_total) | (!is_wrong & bumped.is_total)};
+            MaskOf<L>((is_wrong & flat.is_total) | (!is_wrong & bumped.is_total))};
 }
 
 } // namespace scc::runtime
