@@ -56,7 +56,7 @@ private:
             derived = applied(node);
             break;
         case ir::Node::Kind::image:
-            throw std::logic_error("the field of an implicit surface reads an image"); // refused when lowered
+            throw std::logic_error("the texels of an image have no formula"); // refused by with_gradient
         }
         nodes_.push_back(derived);
     }
@@ -198,11 +198,12 @@ bool is_step(Op op) {
 } // namespace
 
 std::optional<ir::Function> with_gradient(const ir::Function& function) {
-    const bool has_noise =
+    const bool has_unknown =
         std::any_of(function.nodes.begin(), function.nodes.end(), [](const ir::Node& node) {
-            return node.kind == ir::Node::Kind::apply && node.op == Op::noise;
+            return node.kind == ir::Node::Kind::image ||
+                   (node.kind == ir::Node::Kind::apply && node.op == Op::noise);
         });
-    return has_noise ? std::nullopt : std::optional(Differentiator(function).run());
+    return has_unknown ? std::nullopt : std::optional(Differentiator(function).run());
 }
 
 bool has_slope(const ir::Function& function) {

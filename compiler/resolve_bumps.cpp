@@ -169,9 +169,20 @@ Terms3 foot_of(const Terms3& p, const Term& f, const Terms3& gradient, const Mat
     return foot;
 }
 
+/// Records the height at a point of the object's space.
+Term height_at(FunctionBuilder& builder, const ir::Function& height, const Terms3& p,
+               const runtime::Affine<double>& place) {
+    const Terms3 world = multiplied(linear_part(place), p);
+    const std::vector<std::uint32_t> nodes = builder.include(height, [&](ir::Input which) {
+        const auto i = static_cast<std::size_t>(which);
+        return i < 3 ? p[i].node : (world[i - 3] + place.m[i - 3][3]).node;
+    });
+    return {&builder, nodes[height.results[0]]};
+}
+
 class BumpResolver {
 public:
-    explicit BumpResolver(const ir::Scene& scene) : resolved_{scene, {}} {
+    BumpResolver(const ir::Scene& scene, BumpForm form) : resolved_{scene, {}}, form_(form) {
         for (const ir::Material& material : scene.materials) {
             names_.insert(material.name);
         }
@@ -224,8 +235,9 @@ private:
         ir::Scene& scene = resolved_.scene;
         ir::Material made = scene.materials[material];
         const auto index = static_cast<std::uint32_t>(scene.materials.size());
-        auto height =
-            height_along_surface(scene.functions[static_cast<std::size_t>(made.phong.bump)], object, scene);
+        const ir::Function& given = scene.functions[static_cast<std::size_t>(made.phong.bump)];
+        auto height = form_ == BumpForm::world_slope ? world_slope(given, object.world_from_object)
+                                                     : height_along_surface(given, object, scene);
         if (height) {
             made.phong.bump = static_cast<std::int32_t>(scene.functions.size());
             scene.functions.push_back(*std::move(height));
@@ -247,6 +259,7 @@ private:
     }
 
     ResolvedBumps resolved_;
+    BumpForm form_;
     std::set<std::string> names_;
 };
 
@@ -267,19 +280,41 @@ std::optional<ir::Function> height_along_surface(const ir::Function& height, con
     const Terms3 foot =
         foot_of({point.x, point.y, point.z}, result(0), {result(1), result(2), result(3)},
                 with_transposed(linear_part(inverse(place))), object_bounds(object.shape, scene));
-    const Terms3 world = multiplied(linear_part(place), foot);
-    const auto node_of = [&](ir::Input which) {
-        const auto i = static_cast<std::size_t>(which);
-        return i < 3 ? foot[i].node : (world[i - 3] + place.m[i - 3][3]).node;
-    };
-    const std::vector<std::uint32_t> nodes = builder.include(height, node_of);
-    ir::Function made = builder.finish({{0, nodes[height.results[0]]}});
+    ir::Function made = builder.finish({{0, height_at(builder, height, foot, place).node}});
     made.name = height.name;
     return made;
 }
 
-ResolvedBumps resolve_bumps(const ir::Scene& scene) {
-    return BumpResolver(scene).run();
+std::optional<ir::Function> world_slope(const ir::Function& height, const runtime::Affine<double>& place) {
+    if (height.reads(ir::Input::uv_x, ir::Input::uv_y)) {
+        return std::nullopt;
+    }
+    FunctionBuilder builder;
+    const Point p = object_point(builder);
+    const Term value = height_at(builder, height, {p.x, p.y, p.z}, place);
+    const std::optional<ir::Function> derived = with_gradient(builder.finish({{0, value.node}}));
+    if (!derived) {
+        return std::nullopt;
+    }
+    FunctionBuilder slope_builder;
+    const std::vector<std::uint32_t> nodes =
+        slope_builder.include(*derived, [&](ir::Input which) { return slope_builder.input(name(which)); });
+    const auto by = [&](std::size_t i) { return Term{&slope_builder, nodes[derived->results[i]]}; };
+    const Matrix inverted = linear_part(inverse(place));
+    Matrix transposed{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            transposed[i][k] = inverted[k][i];
+        }
+    }
+    const Terms3 slope = multiplied(transposed, {by(1), by(2), by(3)});
+    ir::Function made = slope_builder.finish({{0, slope[0].node}, {0, slope[1].node}, {0, slope[2].node}});
+    made.name = height.name + " slope";
+    return made;
+}
+
+ResolvedBumps resolve_bumps(const ir::Scene& scene, BumpForm form) {
+    return BumpResolver(scene, form).run();
 }
 
 } // namespace scc::compiler

@@ -16,12 +16,19 @@ namespace scc::compiler {
 std::optional<ir::Function> height_along_surface(const ir::Function& height, const ir::Object& object,
                                                  const ir::Scene& scene);
 
-/// A scene with a material of its own for each bumped surface, whose bump is a height_along_surface.
+/// The height's gradient by the point in the world as a function of p, three numbers, its part along the
+/// normal included. Nothing where an operation has no derivative (see derivative.h).
+std::optional<ir::Function> world_slope(const ir::Function& height, const runtime::Affine<double>& place);
+
+/// What becomes of a bump.
+enum class BumpForm { height_along_surface, world_slope };
+
+/// A scene with a material of its own for each bumped surface, whose bump is of this form.
 struct ResolvedBumps {
     ir::Scene scene;
     std::vector<std::uint32_t> flat; ///< the materials that lost their bumps
 };
 /// Of a scene without functions of uv but on meshes (see resolve_uv.h).
-ResolvedBumps resolve_bumps(const ir::Scene& scene);
+ResolvedBumps resolve_bumps(const ir::Scene& scene, BumpForm form);
 
 } // namespace scc::compiler

@@ -523,7 +523,7 @@ std::string emit_pov(const ir::Scene& scene, Ledger& ledger, ExportFiles& files,
         resolved = resolve_uv(scene);
     }
     if (scene.traits.bump) {
-        ResolvedBumps bumps = resolve_bumps(resolved ? *resolved : scene);
+        ResolvedBumps bumps = resolve_bumps(resolved ? *resolved : scene, BumpForm::height_along_surface);
         for (const std::uint32_t material : bumps.flat) {
             const ir::Material& flat = bumps.scene.materials[material];
             ledger.push_back(
