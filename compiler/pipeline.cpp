@@ -71,9 +71,9 @@ std::vector<lang::Definition> parse_definitions(const std::vector<std::string>& 
 }
 
 AssetPolicy asset_policy(const SceneOptions& options, const std::vector<lang::Definition>& definitions,
-                         const Loaded& loaded) {
+                         FoundFiles found) {
     AssetPolicy policy;
-    policy.found = loaded.assets;
+    policy.found = std::move(found);
     policy.scene_folder = fs::path(options.file).parent_path();
     policy.asset_paths.assign(options.asset_paths.begin(), options.asset_paths.end());
     for (const lang::Definition& definition : definitions) {
@@ -88,7 +88,7 @@ LowerOptions lower_options(const SceneOptions& options, const std::vector<lang::
     result.name = fs::path(options.file).stem().string();
     result.camera = options.camera;
     result.keep_meshes = options.keep_meshes;
-    result.assets = asset_policy(options, definitions, loaded);
+    result.assets = asset_policy(options, definitions, loaded.assets);
     for (const lang::FileId file : loaded.module.imports) {
         result.import_folders[file] = fs::path(loaded.sources.file(file).path()).parent_path();
     }
@@ -132,15 +132,6 @@ std::string read_text(const SceneOptions& options, const std::string& path) {
     return read_text_file(path);
 }
 
-std::unique_ptr<lang::Importer> make_importer(const SceneOptions& options,
-                                              const std::vector<lang::Definition>& definitions,
-                                              const Loaded& loaded) {
-    if (options.only_texts) {
-        return std::make_unique<TextImporter>(*options.texts);
-    }
-    return std::make_unique<FileImporter>(asset_policy(options, definitions, loaded));
-}
-
 // Runs one stage and notes how long it took.
 template <class Run>
 void timed(Loaded& loaded, const char* stage, Run run) {
@@ -151,6 +142,13 @@ void timed(Loaded& loaded, const char* stage, Run run) {
 }
 
 } // namespace
+
+std::unique_ptr<lang::Importer> make_importer(const SceneOptions& options, FoundFiles found) {
+    if (options.only_texts) {
+        return std::make_unique<TextImporter>(*options.texts);
+    }
+    return std::make_unique<FileImporter>(asset_policy(options, {}, std::move(found)));
+}
 
 Loaded load(const SceneOptions& options, Stage last) {
     Loaded loaded;
@@ -170,9 +168,9 @@ Loaded load(const SceneOptions& options, Stage last) {
     if (last < Stage::module) {
         return loaded;
     }
-    ImageTable images(asset_policy(options, definitions, loaded), loaded.sources, loaded.diagnostics);
+    ImageTable images(asset_policy(options, definitions, loaded.assets), loaded.sources, loaded.diagnostics);
     timed(loaded, "check", [&] {
-        const std::unique_ptr<lang::Importer> importer = make_importer(options, definitions, loaded);
+        const std::unique_ptr<lang::Importer> importer = make_importer(options, loaded.assets);
         loaded.module = lang::check(loaded.tree, scene_schema(), definitions, loaded.sources,
                                     loaded.diagnostics, {}, importer.get(), options.frame, &images);
     });

@@ -41,8 +41,7 @@ struct Loaded {
     ir::Scene scene;
     std::vector<std::pair<std::string, double>> times_ms;
     /// Imports, meshes and images that were found, but not the scene's own file.
-    std::shared_ptr<std::set<std::filesystem::path>> assets =
-        std::make_shared<std::set<std::filesystem::path>>();
+    FoundFiles assets = std::make_shared<std::set<std::filesystem::path>>();
 };
 
 /// `lowered`: a scene that the passes have not run over.
@@ -55,6 +54,9 @@ std::string read_text_file(const std::string& path);
 /// Throws host::FileError if the scene file cannot be read, host::UsageError for a -D without `=` or a
 /// frame that the scene does not have.
 Loaded load(const SceneOptions& options, Stage last);
+
+/// Where the files come from that the scene imports.
+std::unique_ptr<lang::Importer> make_importer(const SceneOptions& options, FoundFiles found = {});
 
 /// Prints all diagnostics to stderr, what the scene printed, and how many errors there were. True if there
 /// were none.
