@@ -931,15 +931,19 @@ namespace {
 
 /// Takes out what raster mode has not: shadows, mirrors, refraction. What is transparent can lie before any
 /// number of others that are.
-void leave_surfaces_alone(ir::Scene& scene) {
+void leave_surfaces_alone(ir::Scene& scene, lang::Diagnostics& diagnostics) {
     scene.settings.shadows = false;
     scene.settings.depth = runtime::most_bounces;
     const auto leave_alone = [](runtime::Phong<double>& phong) {
         phong.reflect = {};
         phong.ior = {1};
-        phong.fresnel = 0;
+        phong.fresnel = false;
+        phong.bump = runtime::no_function;
     };
     for (ir::Material& material : scene.materials) {
+        if (material.phong.bump != runtime::no_function) {
+            diagnostics.report(Diag::raster_leaves_out, material.span, "bumps", "the surface is lit as if smooth");
+        }
         leave_alone(material.phong);
         std::for_each(material.bands.begin(), material.bands.end(), leave_alone);
     }
@@ -969,7 +973,7 @@ ir::Scene lower(const lang::Module& module, const LowerOptions& options, lang::D
         }
     }
     if (scene.settings.method == runtime::Method::raster) {
-        leave_surfaces_alone(scene);
+        leave_surfaces_alone(scene, diagnostics);
     }
     return scene;
 }

@@ -96,6 +96,8 @@ private:
     lang::Scalar opacity_in(Traced& traced, const Opacity& opacity);
     std::int32_t add_function(ir::Function function, const std::string& name, const Treatment& treatment);
     Traced& traced(const lang::ClosurePtr& closure);
+    std::int32_t bump(const lang::Thing& phong, const std::string& owner);
+    void check_bump(const lang::Thing& thing, const runtime::Phong<double>& phong);
     void warn_of_idle_ior(const lang::Thing& thing, const runtime::Phong<double>& phong);
     void warn_if_bright(const lang::Thing& phong, std::string_view field,
                         const runtime::Varying<runtime::Rgb<double>>& value);

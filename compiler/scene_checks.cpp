@@ -3,6 +3,7 @@
 #include "compiler/bounds.h"
 #include "compiler/coincident_faces.h"
 #include "compiler/ir/objects.h"
+#include "compiler/shape_rules.h"
 #include "compiler/values.h"
 #include "lang/schema.h"
 
@@ -184,6 +185,43 @@ void check_distance(const ir::Scene& scene, lang::Diagnostics& diagnostics) {
     }
 }
 
+/// Why a shape has no inside, of which it is a boundary. Empty if it has.
+std::string opening_of(const ir::Object& object, const ir::Scene& scene) {
+    if (std::holds_alternative<runtime::Csg<double>>(object.shape)) {
+        return "";
+    }
+    if (const auto* mesh = std::get_if<runtime::Mesh<double>>(&object.shape)) {
+        const std::string opening = open_part(scene.meshes[mesh->mesh]);
+        // To refraction it does not matter whether all triangles face inwards.
+        return opening.starts_with("is open") ? "the mesh " + opening : "";
+    }
+    const std::string_view opening = open_part(object.shape);
+    return opening.empty() ? "" : fmt::format("it {}", opening);
+}
+
+/// What bends rays is closed.
+void check_openings(const ir::Scene& scene, lang::Diagnostics& diagnostics) {
+    const auto bends = [&](const runtime::Sides& sides) {
+        return refracts(scene.materials[sides.front].phong) || refracts(scene.materials[sides.back].phong);
+    };
+    const auto check = [&](const ir::Object& object) {
+        const std::string opening = bends(object.sides) ? opening_of(object, scene) : "";
+        if (!opening.empty()) {
+            diagnostics.report(Diag::open_refraction, object.span, object.path, opening);
+        }
+        return !opening.empty();
+    };
+    ir::for_each_piece(scene, check, [&](const ir::ObjectArray& array) {
+        for (const ir::ObjectColumn& column : array.columns) {
+            for (std::size_t round = 0; round < array.rounds; ++round) {
+                if (bends(column.sides_of(round)) && check(ir::object_of(column, round))) {
+                    break; // the others differ in numbers only
+                }
+            }
+        }
+    });
+}
+
 /// One index of refraction per body.
 void check_bodies(const ir::Scene& scene, lang::Diagnostics& diagnostics) {
     if (std::none_of(scene.materials.begin(), scene.materials.end(),
@@ -215,6 +253,7 @@ void check_scene(const lang::Module& module, const ir::Scene& scene, lang::Diagn
     check_raster(scene, diagnostics);
     check_coincident_faces(scene, diagnostics);
     check_bodies(scene, diagnostics);
+    check_openings(scene, diagnostics);
 }
 
 } // namespace scc::compiler

@@ -44,6 +44,7 @@ struct SceneTraits {
     bool two_sided = false;      ///< some shape has a back material of its own
     bool functions = false;      ///< some material field is a per-point function
     bool uv = false;             ///< some of them reads the coordinates on the surface
+    bool bump = false;           ///< some material has one
     bool smooth_normals = false; ///< some triangle or mesh has vertex normals
     bool shadows = false;
     bool accelerator = false; ///< enough bounded shapes that a hierarchy over them pays
@@ -62,7 +63,7 @@ struct SceneTraits {
 
 inline constexpr SceneTraits everything{~0U,  ~0U,  ~0U,  ~0U,  true, true, true, true, true, true,
                                         true, true, true, true, true, true, true, true, true, true,
-                                        true, true, true, true, true, true, true, true, true};
+                                        true, true, true, true, true, true, true, true, true, true};
 
 /// What every shape in a scene carries.
 struct Tag {

@@ -42,6 +42,11 @@ public:
                 refracts_ = refracts_ || refracts(material);
             }
         }
+        if constexpr (S::traits.bump) {
+            for (const Phong<R>& material : scene.materials) {
+                bumps_ = bumps_ || material.bump != no_function;
+            }
+        }
         if constexpr (S::traits.shadows && !has_hierarchy<S>) {
             const auto balls = primitive_balls(scene);
             for (const auto& light : scene.point_lights) {
@@ -91,6 +96,9 @@ public:
                 if (any(pack.active)) {
                     goes_on = true;
                     meet(rays[i], hits[i], pack);
+                    if constexpr (S::traits.bump) {
+                        bump(pack, rays[i]);
+                    }
                     look_up(scene_, pack.at.material, pack.at.point, pack.active, pack.material);
                     if constexpr (Observer::observes) {
                         observer_.tell([&](auto& o) { o.met(hits[i], pack.at, pack.material); });
@@ -140,6 +148,9 @@ private:
         L bounces; ///< each ray's own
         IndexOf<L> media;
         Rgb<L> filter; ///< what transparent surfaces leave of the light in question
+        // Only with bumps:
+        Mask is_bumped;
+        Vec3<L> facing; ///< the geometric normal on the ray's side
     };
     /// A mirrored ray that waits until what is seen through its surface is done.
     struct Branch {
@@ -161,12 +172,62 @@ private:
 
     /// Fills in `pack.at`.
     void meet(const Ray<L>& ray, const Hit<L>& hit, Pack& pack) const {
-        constexpr EncounterParts parts{S::traits.refraction, S::traits.functions, S::traits.uv};
+        constexpr EncounterParts parts{S::traits.refraction, S::traits.functions, S::traits.uv,
+                                       S::traits.bump};
         bool reads_uv = false;
         if constexpr (S::traits.uv) {
             reads_uv = scene_.reads_uv;
         }
-        detail::meet<parts>(scene_, ray, hit, pack.active, reads_uv, pack.at);
+        detail::meet<parts>(scene_, ray, hit, pack.active, reads_uv, bumps_, pack.at);
+    }
+
+    /// Replaces the shading normals of bumped surfaces.
+    void bump(Pack& pack, const Ray<L>& ray) const {
+        pack.is_bumped = Mask(false);
+        if (!bumps_) {
+            return;
+        }
+        Encounter<L>& at = pack.at;
+        const Vec3<L>& outward = at.surface.normal;
+        pack.facing = choose(dot(outward, ray.dir) > 0, -outward, outward);
+        for_each_material<L>(scene_, at.material, pack.active, [&](const Phong<R>& material, const Mask& here, bool) {
+            if (material.bump != no_function) {
+                const Dual<L, 3> height =
+                    scene_.number_function(material.bump, with_slopes(at.point, at.slopes));
+                const Vec3<L> slope{height.d[0], height.d[1], height.d[2]};
+                at.normal = choose(here, bumped_normal(at.normal, outward, slope), at.normal);
+                pack.is_bumped = pack.is_bumped | here;
+            }
+        });
+    }
+    /// s.m. A bump is not lit by what its surface itself is turned away from.
+    L cosine_towards(const Vec3<L>& to_light, const Pack& pack) const {
+        const L cosine = dot(to_light, pack.at.normal);
+        if constexpr (S::traits.bump) {
+            if (bumps_) {
+                const L of_surface = dot(to_light, pack.facing);
+                return choose(pack.is_bumped & !(of_surface > 0), minimum(of_surface, cosine), cosine);
+            }
+        }
+        return cosine;
+    }
+    Vec3<L> mirror_direction(const Vec3<L>& dir, const Pack& pack) const {
+        const Vec3<L> result = reflect(dir, pack.at.normal);
+        if constexpr (S::traits.bump) {
+            if (bumps_) {
+                return choose(pack.is_bumped, reflect_bumped(dir, pack.at.normal, pack.facing), result);
+            }
+        }
+        return result;
+    }
+    Refraction<L> refracted(const Vec3<L>& dir, const Pack& pack, const L& from, const L& to) const {
+        if constexpr (S::traits.bump) {
+            if (bumps_) {
+                const Vec3<L> flat = choose(pack.is_bumped, pack.facing, pack.at.normal);
+                return refract_bumped(dir, pack.at.normal, flat, from, to);
+            }
+        }
+        return refract(dir, pack.at.normal, from, to);
     }
 
     void start(Packs& packs, const std::array<Ray<L>, N>& rays) {
@@ -196,8 +257,8 @@ private:
             return false;
         }
         pack.weight = pack.weight * pack.material.reflect;
-        const Vec3<L> mirrored = reflect(ray.dir, pack.at.normal);
-        ray = {start_off(pack.at.surface, mirrored), mirrored, spawned_t_min<L>(), infinity<L>()};
+        const Vec3<L> dir = mirror_direction(ray.dir, pack);
+        ray = {start_off(pack.at.surface, dir), dir, spawned_t_min<L>(), infinity<L>()};
         counts_.reflected += count_lanes(pack.active);
         return true;
     }
@@ -220,7 +281,7 @@ private:
                 L from(1), to(1);
                 cross(pack, dielectric, media, from, to);
                 const Mask bent = dielectric & (from != to);
-                const Refraction<L> refraction = refract(ray.dir, pack.at.normal, from, to);
+                const Refraction<L> refraction = refracted(ray.dir, pack, from, to);
                 const Mask total = bent & through & refraction.is_total;
                 const L share = choose(bent, refraction.reflectance, L(0));
                 const Mask fresnel = dielectric & (material.fresnel != 0);
@@ -248,7 +309,7 @@ private:
         }
         Branch branch{Mask(mirrored & through), mirrored_weight, pack.bounces + 1, pack.media, {}, {}};
         if (any(mirrored)) {
-            branch.dir = reflect(ray.dir, pack.at.normal);
+            branch.dir = mirror_direction(ray.dir, pack);
             branch.org = start_off(pack.at.surface, branch.dir);
             if (any(branch.active)) {
                 waiting.push_back(branch);
@@ -430,7 +491,7 @@ private:
                 continue;
             }
             seen[i] = light_at(light, packs[i].at.surface.point);
-            cosine[i] = dot(seen[i].to_light, packs[i].at.normal);
+            cosine[i] = cosine_towards(seen[i].to_light, packs[i]);
             lit[i] = lit_lanes(light, seen[i], cosine[i], lit[i]);
             if constexpr (Observer::observes) {
                 observer_.tell([&](auto& o) { o.light(light, seen[i], cosine[i], lit[i]); });
@@ -591,6 +652,7 @@ private:
     [[no_unique_address]] mutable Observer observer_;
     bool transmits_ = false; ///< some material lets light through
     bool refracts_ = false;  ///< and has an index of refraction
+    bool bumps_ = false;     ///< some material is bumped
     Media<R> media_;
     std::array<std::vector<Branch>, N> waiting_; ///< of each pack
     Vec3<R> start_{std::numeric_limits<R>::quiet_NaN(), 0, 0};

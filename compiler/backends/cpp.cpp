@@ -77,9 +77,9 @@ std::string literal(const Affine<R>& a) {
 }
 template <class R>
 std::string literal(const runtime::Phong<R>& p) {
-    return fmt::format("{{{}, {}, {}, {}, {}, {}, {}, {}, {}}}", literal(p.ambient), literal(p.diffuse),
+    return fmt::format("{{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}}}", literal(p.ambient), literal(p.diffuse),
                        literal(p.specular), literal(p.emission), literal(p.reflect), literal(p.transmit),
-                       literal(p.shininess), literal(p.ior), literal(p.fresnel));
+                       literal(p.shininess), literal(p.ior), literal(p.fresnel), p.bump);
 }
 template <class R>
 std::string literal(const runtime::PointLight<R>& l) {

@@ -10,6 +10,7 @@
 #include "compiler/bounds.h"
 #include "compiler/field_bounds.h"
 #include "compiler/ir/objects.h"
+#include "compiler/resolve_bumps.h"
 #include "compiler/resolve_uv.h"
 #include "compiler/writer.h"
 
@@ -525,11 +526,23 @@ private:
 
 std::string emit_pov(const ir::Scene& scene, Ledger& ledger, ExportFiles& files,
                      const lang::SourceSet* sources) {
-    if (!scene.traits.uv) {
-        return PovExport(scene, ledger, files, sources).run();
+    std::optional<ir::Scene> resolved;
+    if (scene.traits.uv) {
+        resolved = resolve_uv(scene);
     }
-    const ir::Scene resolved = resolve_uv(scene);
-    return PovExport(resolved, ledger, files, sources).run();
+    if (scene.traits.bump) {
+        ResolvedBumps bumps = resolve_bumps(resolved ? *resolved : scene, BumpForm::height_along_surface);
+        for (const std::uint32_t material : bumps.flat) {
+            const ir::Material& flat = bumps.scene.materials[material];
+            ledger.push_back(
+                {Fidelity::dropped, "phong bump", flat.name, flat.span,
+                 "POV-Ray's normals know no tangents; the compiler has none of a mesh, nor of a field "
+                 "with `noise`",
+                 0});
+        }
+        resolved = std::move(bumps.scene);
+    }
+    return PovExport(resolved ? *resolved : scene, ledger, files, sources).run();
 }
 
 } // namespace scc::compiler

@@ -21,6 +21,10 @@ constexpr double largest_color = 8;
 constexpr double largest_shininess = 1e5;
 constexpr std::string_view uv_and_point =
     "POV-Ray maps a texture by uv or by the point, and this material reads both";
+/// Values of heights beyond are cut where they have no bounds.
+constexpr double largest_height = 1000;
+/// The differences that POV-Ray's normals are made of: their error grows with it, and that of rounding falls.
+constexpr std::string_view bump_delta = "1e-7";
 /// Stands for one that POV-Ray cannot calculate.
 constexpr double usual_shininess = 32;
 
@@ -89,6 +93,9 @@ PovMaterials::Use PovMaterials::declare(std::uint32_t material, const std::strin
     painted.transmit = color(phong.transmit, "transmit", material, world_from_object);
     painted.fresnel = phong.fresnel;
     painted.shininess = shininess(phong.shininess, material, world_from_object);
+    if (phong.bump != runtime::no_function) {
+        painted.normal = normal(phong.bump, material, world_from_object);
+    }
     if (!has_writable_highlight(painted)) {
         painted.specular = {};
         note(material, "phong specular",
@@ -126,6 +133,22 @@ Paint PovMaterials::shininess(const runtime::Varying<double>& value, std::uint32
         constant = usual_shininess;
     }
     return {{constant, constant, constant}, {}, false, runtime::no_function};
+}
+
+/// POV-Ray subtracts 5 a (0.02 / delta) times the sum of h(p + delta v) v over the corners v of a regular
+/// tetrahedron: 2/15 a times the gradient of h. Without no_bump_scale it would do so to normals of unit
+/// length in the object's space, and not to what the object's transform makes of the world's.
+std::string PovMaterials::normal(std::int32_t bump, std::uint32_t material,
+                                 const Affine<double>* world_from_object) {
+    auto [height, outcome] =
+        functions_.scaled_number(bump, {ranges_[material], largest_height, world_from_object, {}});
+    const bool dropped = outcome.fidelity == Fidelity::dropped;
+    outcome.how = fmt::format("function `{}`: {}", scene_.functions[static_cast<std::size_t>(bump)].name,
+                              dropped ? "the surface stays smooth: " + outcome.how : outcome.how);
+    note(material, "phong bump", outcome);
+    return dropped ? ""
+                   : fmt::format("normal {{ function {{ {} }} {} accuracy {} no_bump_scale }}", height.t,
+                                 number(7.5 * (height.high - height.low)), bump_delta);
 }
 
 std::pair<Paint, Fidelity> PovMaterials::paint(std::int32_t function, std::string_view field,

@@ -38,6 +38,8 @@ private:
                 std::uint32_t material, const runtime::Affine<double>* world_from_object);
     Paint shininess(const runtime::Varying<double>& value, std::uint32_t material,
                     const runtime::Affine<double>* world_from_object);
+    std::string normal(std::int32_t bump, std::uint32_t material,
+                       const runtime::Affine<double>* world_from_object);
     std::pair<Paint, Fidelity> paint(std::int32_t function, std::string_view field, std::uint32_t material,
                                      double largest, const runtime::Affine<double>* world_from_object);
     void note(std::uint32_t material, std::string_view feature, const Outcome& outcome);

@@ -52,9 +52,16 @@ auto convert(const runtime::Varying<T>& v, R real) -> runtime::Varying<decltype(
 
 template <class R>
 runtime::Phong<R> convert(const runtime::Phong<double>& p, R real) {
-    return {convert(p.ambient, real),   convert(p.diffuse, real), convert(p.specular, real),
-            convert(p.emission, real),  convert(p.reflect, real), convert(p.transmit, real),
-            convert(p.shininess, real), convert(p.ior, real),     p.fresnel};
+    return {convert(p.ambient, real),
+            convert(p.diffuse, real),
+            convert(p.specular, real),
+            convert(p.emission, real),
+            convert(p.reflect, real),
+            convert(p.transmit, real),
+            convert(p.shininess, real),
+            convert(p.ior, real),
+            p.fresnel,
+            p.bump};
 }
 template <class R>
 runtime::PointLight<R> convert(const runtime::PointLight<double>& l, R real) {

@@ -32,6 +32,7 @@ inline constexpr auto trait_flags = std::to_array<TraitFlag>({
     {"two_sided", &runtime::SceneTraits::two_sided},
     {"functions", &runtime::SceneTraits::functions},
     {"uv", &runtime::SceneTraits::uv},
+    {"bump", &runtime::SceneTraits::bump},
     {"smooth_normals", &runtime::SceneTraits::smooth_normals},
     {"shadows", &runtime::SceneTraits::shadows},
     {"accelerator", &runtime::SceneTraits::accelerator},

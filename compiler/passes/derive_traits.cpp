@@ -59,6 +59,7 @@ void need(SceneTraits& traits, const runtime::Phong<double>& p, const ir::Scene&
     if (scene.settings.method == runtime::Method::ray) {
         traits.reflection |= scene.settings.depth > 0 && is_present(p.reflect);
         traits.refraction |= refracts(p);
+        traits.bump |= p.bump != runtime::no_function;
     }
     for (const std::int32_t function : ir::functions_of(p)) {
         if (function != runtime::no_function) {

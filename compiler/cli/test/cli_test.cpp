@@ -16,6 +16,20 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
+TEST_F(CommandLine, BuildSaysWhatItsOutputDependsOn) {
+    std::filesystem::create_directory(path("my parts"));
+    write("my parts/ball.scn", "let ball = mesh { file = \"one.obj\" }\n");
+    write("my parts/one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write("s.scn", "import \"my parts/ball.scn\" as parts\nparts.ball\n");
+    ASSERT_TRUE(scc({"build", "s.scn", "--emit", "ir", "-o", "out$1.ir", "-d", "s.d"}).ok());
+    EXPECT_EQ(read("s.d"), "out$$1.ir: s.scn \\\n  my\\ parts/ball.scn \\\n  my\\ parts/one.obj\n"
+                           "\nmy\\ parts/ball.scn:\n\nmy\\ parts/one.obj:\n");
+    EXPECT_EQ(scc({"build", "s.scn", "--emit", "ir", "-o", "-", "-d", "t.d"}).code, 2);
+    write("s.scn", "sphere { radius = -1 }\n");
+    EXPECT_EQ(scc({"build", "s.scn", "--emit", "ir", "-o", "o", "-d", "t.d"}).code, 1);
+    EXPECT_FALSE(exists("t.d"));
+}
+
 TEST_F(CommandLine, HelpNamesEveryCommand) {
     const auto result = scc({"--help"});
     EXPECT_TRUE(result.ok());

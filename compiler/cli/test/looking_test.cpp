@@ -352,6 +352,28 @@ TEST_F(Explain, TellsTheSampleThatIsAskedFor) {
     EXPECT_EQ(corner.of("to the bit"), 1U);
 }
 
+TEST_F(Explain, TellsThePixelAsJsonToo) {
+    write("s.scn", "sphere { material = phong { diffuse = rgb(0.5, 0.5, 0.5), reflect = rgb(0.2, 0.2, 0.2), "
+                   "bump = fn(s: surface) = 0.05 * sin(9 * s.p.x) } }\n"
+                   "perspective_camera { eye = (0, 0, 4) }\npoint_light { position = (2, 3, 4) }\n");
+    const Json json = Json::parse(explain({"s.scn", "--pixel", "33,25", "--size", "64x48", "--json"}));
+    EXPECT_EQ(json["schema"], 1);
+    EXPECT_EQ(json["pixel"], (Json{33, 25}));
+    ASSERT_EQ(json["rays"].size(), 2U);
+    const Json& hit = json["rays"][0]["hit"];
+    EXPECT_EQ(json["rays"][1]["way"], "mirrored");
+    EXPECT_EQ(json["rays"][1]["parent"], 0);
+    EXPECT_TRUE(json["rays"][1]["hit"].is_null());
+    EXPECT_TRUE(hit["bumped"].get<bool>());
+    EXPECT_NE(hit["normal"], hit["shading_normal"]);
+    ASSERT_EQ(hit["lights"].size(), 1U);
+    EXPECT_TRUE(hit["lights"][0]["reaches"].get<bool>());
+    for (std::size_t i = 0; i < 3; ++i) { // what mirrors see is black
+        EXPECT_NEAR(json["sum"][i].get<double>(), hit["light"][i].get<double>(), 1e-12);
+    }
+    EXPECT_EQ(json["pixel_color"], json["rendered"]);
+}
+
 TEST_F(Explain, SaysWhatItCannotExplain) {
     write("s.scn", small_scene);
     EXPECT_EQ(scc({"explain", "s.scn"}).code, 2);
