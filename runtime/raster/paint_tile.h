@@ -71,14 +71,20 @@ public:
     /// Its pixels' light, and z* if asked for, into pictures of the crop's size.
     void paint(int tile, const Crop& crop, Image& image, std::vector<R>* pseudodepth) {
         const Crop pixels = tiles_.pixels_of(tile);
-        find_fragments();
-        number_samples(pixels);
-        shader_.prepare();
-        shade(pixels);
-        if (!fragments_.empty()) {
-            blend();
+        if (entries_.empty()) {
+            store_background(pixels, crop, image);
+        } else {
+            if constexpr (S::traits.transmission) {
+                find_fragments();
+            }
+            number_samples(pixels);
+            shader_.prepare();
+            shade(pixels);
+            if constexpr (S::traits.transmission) {
+                blend();
+            }
+            store(pixels, crop, image);
         }
-        store(pixels, crop, image);
         if (pseudodepth != nullptr) {
             store_depth(pixels, crop, image.width, *pseudodepth);
         }
@@ -175,9 +181,12 @@ private:
     }
 
     void number_samples(const Crop& pixels) {
+        std::uint32_t last = no_entry;
         for_each_block(pixels, [&](std::size_t block, int, int) {
+            if (all(buffer_.shows(block, last))) {
+                return;
+            }
             const auto& entries = buffer_.entries(block);
-            std::uint32_t last = no_entry;
             for (int k = 0; k < N; ++k) {
                 if (entries[k] != last) {
                     last = entries[k];
@@ -192,30 +201,26 @@ private:
     void shade(const Crop& pixels) {
         const Rgb<L> background = lanes<L>(Rgb<R>(scene_.background));
         for_each_block(pixels, [&](std::size_t block, int x, int y) {
-            const auto& entries = buffer_.entries(block);
-            typename Shader::Numbers numbers;
-            MaskOf<L> active(true);
-            std::uint32_t some = no_entry;
-            for (int k = 0; k < N; ++k) {
-                const std::uint32_t entry = entries[k];
-                numbers[static_cast<std::size_t>(k)] = entry == no_entry ? no_entry : entries_[entry].number;
-                if (entry == no_entry) {
-                    set_lane(active, k, false);
-                } else {
-                    some = entries_[entry].number;
-                }
-            }
-            if (some == no_entry) {
+            const auto active = buffer_.shown(block);
+            if (none(active)) {
                 light_[block] = background;
                 return;
             }
-            std::replace(numbers.begin(), numbers.end(), no_entry, some);
-            L column, row;
-            for (int k = 0; k < N; ++k) {
-                set_lane(column, k, static_cast<R>(x + k % Buffer::block_width));
-                set_lane(row, k, static_cast<R>(y + k / Buffer::block_width));
+            typename Shader::Numbers numbers;
+            const auto& entries = buffer_.entries(block);
+            const std::uint32_t some = entries[first_lane(active)];
+            if (all(buffer_.shows(block, some))) {
+                numbers.fill(entries_[some].number);
+            } else {
+                for (int k = 0; k < N; ++k) {
+                    const std::uint32_t entry = entries[k] == no_entry ? some : entries[k];
+                    numbers[static_cast<std::size_t>(k)] = entries_[entry].number;
+                }
             }
-            light_[block] = choose(active, shader_.shade(numbers, column, row, active).light, background);
+            const L column = buffer_.columns() + L(static_cast<R>(x)),
+                    row = buffer_.rows() + L(static_cast<R>(y));
+            const Rgb<L> light = shader_.shade(numbers, column, row, active).light;
+            light_[block] = all(active) ? light : choose(active, light, background);
         });
     }
 
@@ -259,6 +264,10 @@ private:
     /// + 0 as in ray pictures: no -0.
     void store(const Crop& pixels, const Crop& crop, Image& image) const {
         const int n = tiles_.samples_across();
+        if (n == 1) {
+            store_samples(pixels, crop, image);
+            return;
+        }
         for (int y = pixels.y0; y < pixels.y1; ++y) {
             float* to = image.at(pixels.x0 - crop.x0, y - crop.y0);
             for (int x = pixels.x0; x < pixels.x1; ++x, to += 3) {
@@ -272,6 +281,39 @@ private:
                 to[0] = static_cast<float>(sum.r / count) + 0.0F;
                 to[1] = static_cast<float>(sum.g / count) + 0.0F;
                 to[2] = static_cast<float>(sum.b / count) + 0.0F;
+            }
+        }
+    }
+    /// One for each pixel.
+    void store_samples(const Crop& pixels, const Crop& crop, Image& image) const {
+        for_each_block(pixels, [&](std::size_t block, int column, int row) {
+            R red[N], green[N], blue[N];
+            store_lanes(red, light_[block].r);
+            store_lanes(green, light_[block].g);
+            store_lanes(blue, light_[block].b);
+            const int x = buffer_.left() + column, y = buffer_.top() + row;
+            const int x0 = std::max(x, pixels.x0), x1 = std::min(x + Buffer::block_width, pixels.x1),
+                      y0 = std::max(y, pixels.y0), y1 = std::min(y + Buffer::block_height, pixels.y1);
+            for (int j = y0; j < y1; ++j) {
+                float* to = image.at(x0 - crop.x0, j - crop.y0);
+                int k = (j - y) * Buffer::block_width + x0 - x;
+                for (int i = x0; i < x1; ++i, ++k, to += 3) {
+                    to[0] = static_cast<float>(red[k]) + 0.0F;
+                    to[1] = static_cast<float>(green[k]) + 0.0F;
+                    to[2] = static_cast<float>(blue[k]) + 0.0F;
+                }
+            }
+        });
+    }
+    void store_background(const Crop& pixels, const Crop& crop, Image& image) const {
+        const Rgb<R> background(scene_.background);
+        const float color[] = {static_cast<float>(background.r) + 0.0F,
+                               static_cast<float>(background.g) + 0.0F,
+                               static_cast<float>(background.b) + 0.0F};
+        for (int y = pixels.y0; y < pixels.y1; ++y) {
+            float* to = image.at(pixels.x0 - crop.x0, y - crop.y0);
+            for (int x = pixels.x0; x < pixels.x1; ++x, to += 3) {
+                std::copy_n(color, 3, to);
             }
         }
     }
