@@ -35,11 +35,17 @@ public:
     /// Finds what the tile's samples show.
     void show(int tile) {
         const auto index = static_cast<std::size_t>(tile);
+        entries_.clear();
+        through_.clear();
+        const bool is_empty = std::all_of(bins_.begin(), bins_.end(), [&](const Bin<R>& bin) {
+            return bin.triangles_of[index].empty() && bin.lines_of[index].empty();
+        });
+        if (is_empty) {
+            return;
+        }
         buffer_.clear(tiles_.left_of(tile), tiles_.top_of(tile),
                       view_.clips_depth() ? R(1) : std::numeric_limits<R>::max());
         shader_.start(buffer_.left(), buffer_.top());
-        entries_.clear();
-        through_.clear();
         const auto earlier = [this](std::uint32_t a, std::uint32_t b) { return is_earlier(a, b); };
         for (const Bin<R>& bin : bins_) {
             for (const std::uint32_t i : bin.triangles_of[index]) {
@@ -73,18 +79,21 @@ public:
         const Crop pixels = tiles_.pixels_of(tile);
         if (entries_.empty()) {
             store_background(pixels, crop, image);
-        } else {
-            if constexpr (S::traits.transmission) {
-                find_fragments();
+            if (pseudodepth != nullptr) {
+                store_no_depth(pixels, crop, image.width, *pseudodepth);
             }
-            number_samples(pixels);
-            shader_.prepare();
-            shade(pixels);
-            if constexpr (S::traits.transmission) {
-                blend();
-            }
-            store(pixels, crop, image);
+            return;
         }
+        if constexpr (S::traits.transmission) {
+            find_fragments();
+        }
+        number_samples(pixels);
+        shader_.prepare();
+        shade(pixels);
+        if constexpr (S::traits.transmission) {
+            blend();
+        }
+        store(pixels, crop, image);
         if (pseudodepth != nullptr) {
             store_depth(pixels, crop, image.width, *pseudodepth);
         }
@@ -93,16 +102,20 @@ public:
     /// What its pixels' centres show beside light; see draw_raster_aovs.
     void store_aovs(int tile, const Crop& crop, AovImage& to) {
         const Crop pixels = tiles_.pixels_of(tile);
-        number_samples(pixels);
-        shader_.prepare();
+        const bool is_empty = entries_.empty();
+        if (!is_empty) {
+            number_samples(pixels);
+            shader_.prepare();
+        }
+        const int left = tiles_.left_of(tile), top = tiles_.top_of(tile);
         for (int y = pixels.y0; y < pixels.y1; ++y) {
             for (int x = pixels.x0; x < pixels.x1; ++x) {
                 const std::size_t i =
                     static_cast<std::size_t>(y - crop.y0) * static_cast<std::size_t>(to.width) +
                     static_cast<std::size_t>(x - crop.x0);
                 const std::uint32_t entry =
-                    buffer_.entry(Buffer::sample_of(x - buffer_.left(), y - buffer_.top()));
-                store_aovs(x - buffer_.left(), y - buffer_.top(), entry, i, to);
+                    is_empty ? no_entry : buffer_.entry(Buffer::sample_of(x - left, y - top));
+                store_aovs(x - left, y - top, entry, i, to);
             }
         }
     }
@@ -310,11 +323,13 @@ private:
         const float color[] = {static_cast<float>(background.r) + 0.0F,
                                static_cast<float>(background.g) + 0.0F,
                                static_cast<float>(background.b) + 0.0F};
-        for (int y = pixels.y0; y < pixels.y1; ++y) {
-            float* to = image.at(pixels.x0 - crop.x0, y - crop.y0);
-            for (int x = pixels.x0; x < pixels.x1; ++x, to += 3) {
-                std::copy_n(color, 3, to);
-            }
+        float* const first = image.at(pixels.x0 - crop.x0, pixels.y0 - crop.y0);
+        const std::ptrdiff_t numbers = std::ptrdiff_t{3} * (pixels.x1 - pixels.x0);
+        for (std::ptrdiff_t i = 0; i < numbers; ++i) {
+            first[i] = color[i % 3];
+        }
+        for (int y = pixels.y0 + 1; y < pixels.y1; ++y) {
+            std::copy_n(first, numbers, image.at(pixels.x0 - crop.x0, y - crop.y0));
         }
     }
     Rgb<R> light_at(int column, int row) const {
@@ -324,6 +339,12 @@ private:
         return {lane(light.r, k), lane(light.g, k), lane(light.b, k)};
     }
 
+    static void store_no_depth(const Crop& pixels, const Crop& crop, int width, std::vector<R>& to) {
+        for (int y = pixels.y0; y < pixels.y1; ++y) {
+            const auto first = to.begin() + std::ptrdiff_t{y - crop.y0} * width + (pixels.x0 - crop.x0);
+            std::fill(first, first + (pixels.x1 - pixels.x0), R(1));
+        }
+    }
     void store_depth(const Crop& pixels, const Crop& crop, int width, std::vector<R>& to) const {
         const int n = tiles_.samples_across();
         for (int y = pixels.y0; y < pixels.y1; ++y) {
