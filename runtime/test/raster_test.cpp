@@ -75,7 +75,7 @@ Camera<R> camera_at(const Vec3<R>& eye, const Vec3<R>& target) {
 template <class R>
 RasterScene<R> varied_scene() {
     RasterScene<R> scene;
-    scene.camera = camera_at<R>({1, 2, 6}, {0, 0.3, 0});
+    scene.camera = camera_at<R>({1, 2, 6}, {0, R(0.3), 0});
     scene.materials = {phong<R>(0.8, 0.3, 0.2), phong<R>(0.2, 0.5, 0.3), phong<R>(0.3, 0.3, 0.1)};
     scene.materials[1].diffuse.function = 0;
     scene.materials[2].transmit.value = {R(0.6), R(0.6), R(0.6)};
