@@ -130,14 +130,6 @@ std::string read_text(const SceneOptions& options, const std::string& path) {
     return read_text_file(path);
 }
 
-std::unique_ptr<lang::Importer> make_importer(const SceneOptions& options,
-                                              const std::vector<lang::Definition>& definitions) {
-    if (options.only_texts) {
-        return std::make_unique<TextImporter>(*options.texts);
-    }
-    return std::make_unique<FileImporter>(asset_policy(options, definitions));
-}
-
 // Runs one stage and notes how long it took.
 template <class Run>
 void timed(Loaded& loaded, const char* stage, Run run) {
@@ -148,6 +140,13 @@ void timed(Loaded& loaded, const char* stage, Run run) {
 }
 
 } // namespace
+
+std::unique_ptr<lang::Importer> make_importer(const SceneOptions& options) {
+    if (options.only_texts) {
+        return std::make_unique<TextImporter>(*options.texts);
+    }
+    return std::make_unique<FileImporter>(asset_policy(options, {}));
+}
 
 Loaded load(const SceneOptions& options, Stage last) {
     Loaded loaded;
@@ -169,7 +168,7 @@ Loaded load(const SceneOptions& options, Stage last) {
     }
     ImageTable images(asset_policy(options, definitions), loaded.sources, loaded.diagnostics);
     timed(loaded, "check", [&] {
-        const std::unique_ptr<lang::Importer> importer = make_importer(options, definitions);
+        const std::unique_ptr<lang::Importer> importer = make_importer(options);
         loaded.module = lang::check(loaded.tree, scene_schema(), definitions, loaded.sources,
                                     loaded.diagnostics, {}, importer.get(), options.frame, &images);
     });

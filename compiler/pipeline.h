@@ -51,6 +51,9 @@ std::string read_text_file(const std::string& path);
 /// frame that the scene does not have.
 Loaded load(const SceneOptions& options, Stage last);
 
+/// Where the files come from that the scene imports.
+std::unique_ptr<lang::Importer> make_importer(const SceneOptions& options);
+
 /// Prints all diagnostics to stderr, what the scene printed, and how many errors there were. True if there
 /// were none.
 bool report(const Loaded& loaded);

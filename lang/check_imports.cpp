@@ -204,7 +204,11 @@ void Checker::given_param(const ast::Field& item, Binding& binding, const Place&
 Binding* Checker::import_named(const ast::Expr& expr, const Place& place) {
     const auto* name = std::get_if<ast::NameRef>(&expr.node);
     Binding* binding = name ? Names::find(place.scope, name->name) : nullptr;
-    return binding && binding->kind == Binding::Kind::import ? binding : nullptr;
+    if (!binding || binding->kind != Binding::Kind::import) {
+        return nullptr;
+    }
+    mention(binding->span, expr.span, place);
+    return binding;
 }
 
 /// What the imported file binds to the name; null if it could not be read or binds nothing to it.

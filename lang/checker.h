@@ -149,7 +149,7 @@ private:
     void report_import_cycle(std::size_t first, Span span);
     void given_param(const ast::Field& item, Binding& binding, const Place& place);
     /// The import that the expression names, if it does.
-    static Binding* import_named(const ast::Expr& expr, const Place& place);
+    Binding* import_named(const ast::Expr& expr, const Place& place);
     Binding* imported_binding(Binding& import, const ast::Name& name, const Place& place);
     Typed imported_member(Binding& import, const ast::Name& name, Span span, const Place& place);
     Typed imported_value(const Binding& import, const Binding& binding, Span span);

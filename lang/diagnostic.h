@@ -1,7 +1,7 @@
 #pragma once
 
+#include "lang/nearest.h"
 #include "lang/source.h"
-#include "runtime/host/nearest.h"
 
 #include <fmt/core.h>
 
@@ -101,7 +101,5 @@ private:
 /// Clang's layout: `file:line:col: severity: message [name]`, the source line, the range, the replacement,
 /// the notes.
 std::string render_text(const SourceSet& sources, const Diagnostic& diagnostic, bool color);
-
-using host::nearest;
 
 } // namespace scc::lang

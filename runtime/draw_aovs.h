@@ -51,9 +51,8 @@ void store_aovs(const S& scene, const Ray<typename S::Real>& ray, AovImage& to, 
 } // namespace detail
 
 /// Fills in what `to`, which has the crop's size, has room for. One ray per pixel, through the middle of the
-/// lens, each by itself: what a
-/// pack of them would give to the bit, with less code. Rows go to `request.threads` threads; the calling one
-/// alone calls `request.progress`. False if that ended it early.
+/// lens, each by itself: what a pack of them would give to the bit, with less code. Rows go to
+/// `request.threads` threads; the calling one alone calls `request.progress`. False if that ended it early.
 template <SceneModel S>
 bool draw_aovs(const S& scene, const RenderRequest& request, AovImage& to) {
     using R = typename S::Real;

@@ -222,7 +222,7 @@ private:
 
     void emit_object(const ir::Object& object) {
         if (const auto* solid = std::get_if<runtime::Csg<double>>(&object.shape)) {
-            if (!describe_fields(object, *solid)) {
+            if (!describe_members(object, *solid)) {
                 return;
             }
             objects_.line("// {}", comment_text(object.path + line_of(object.span)));
@@ -345,17 +345,25 @@ private:
         return lines;
     }
 
-    /// Those of a solid's members. False: it is dropped, since one of them would be missing.
-    bool describe_fields(const ir::Object& object, const runtime::Csg<double>& solid) {
+    /// The members of a solid that are more than a formula. False: it is dropped, since one of them would be
+    /// missing.
+    bool describe_members(const ir::Object& object, const runtime::Csg<double>& solid) {
         bool has_all = true;
         ir::for_each_csg_node(scene_, solid, [&](const ir::CsgNode& node) {
             if (node.op != runtime::CsgOp::member) {
                 return;
             }
             const ir::Object& member = scene_.members[node.member];
-            const auto* implicit = std::get_if<runtime::Implicit<double>>(&member.shape);
-            PovField ignored;
-            has_all &= implicit == nullptr || describe_field(member, *implicit, ignored);
+            if (const auto* implicit = std::get_if<runtime::Implicit<double>>(&member.shape)) {
+                PovField ignored;
+                has_all &= describe_field(member, *implicit, ignored);
+            } else if (const auto* mesh = std::get_if<runtime::Mesh<double>>(&member.shape)) {
+                note(Fidelity::approximated, std::string(mesh->name), member.path, member.span,
+                     "inside_vector; POV-Ray counts crossings, so that it has a hollow where the mesh "
+                     "overlaps "
+                     "itself; bound in radiance at such pixels",
+                     1);
+            }
         });
         if (!has_all) {
             note(Fidelity::dropped, std::string(ir::csg_word(scene_.csg_nodes[solid.root].op)), object.path,

@@ -70,8 +70,14 @@ int serve(const LspOptions& options) {
         std::vector<lang::lsp::ObjectPlace> objects = object_places(loaded.scene, loaded.tree->file);
         return lang::lsp::Checked{std::move(loaded.sources), std::move(diagnostics), std::move(objects)};
     };
+    const auto importer_for = [&options](const std::string& path) {
+        compiler::SceneOptions scene = options.scene;
+        scene.file = path;
+        return compiler::make_importer(scene);
+    };
     lang::lsp::DescriptorChannel channel(STDIN_FILENO, STDOUT_FILENO);
-    const bool ended_well = lang::lsp::Server(compiler::scene_schema(), check, channel, SCC_VERSION).run();
+    const bool ended_well =
+        lang::lsp::Server(compiler::scene_schema(), check, importer_for, channel, SCC_VERSION).run();
     return ended_well ? host::exit_fine : host::exit_scene;
 }
 

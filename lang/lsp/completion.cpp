@@ -98,6 +98,15 @@ public:
         return {{"isIncomplete", false}, {"items", std::move(items_)}};
     }
 
+    /// Null: the file cannot be read.
+    Json imported_names(const Analysis* imported) {
+        for (const Symbol* symbol : imported ? exported_symbols(*imported) : std::vector<const Symbol*>()) {
+            add_symbol(*symbol, *imported);
+        }
+        add("scene", ItemKind::module, Rank::remote)["detail"] = "all that the imported file shows";
+        return {{"isIncomplete", false}, {"items", std::move(items_)}};
+    }
+
 private:
     Json& add(std::string_view label, ItemKind kind, Rank rank) {
         return add(label, kind, rank, std::string(label));
@@ -210,7 +219,7 @@ private:
             for (const std::uint32_t index : analysis_.symbols.scopes[scope].symbols) {
                 const Symbol& symbol = analysis_.symbols.symbols[index];
                 if (is_usable(symbol) && seen.insert(symbol.name).second) {
-                    add_symbol(symbol);
+                    add_symbol(symbol, analysis_);
                 }
             }
         }
@@ -223,13 +232,13 @@ private:
         return symbol.kind != SymbolKind::let || !is_around;
     }
 
-    void add_symbol(const Symbol& symbol) {
+    void add_symbol(const Symbol& symbol, const Analysis& origin) {
         const bool is_function = symbol.kind == SymbolKind::function;
         const bool is_called = is_function && !is_wanted_as_value(symbol);
         Json& item = is_called
                          ? add_around(symbol.name, kind_of(symbol.kind), rank_of_result(symbol), "(", ")")
                          : add(symbol.name, kind_of(symbol.kind), rank_of(symbol.type));
-        item["detail"] = declaration(symbol, analysis_);
+        item["detail"] = declaration(symbol, origin);
     }
     bool is_wanted_as_value(const Symbol& function) const {
         return context_.field && is_wanted(function.type);
@@ -297,11 +306,17 @@ Type type_before_dot(const Analysis& analysis, Span word) {
 
 } // namespace
 
-Json completion(Document& document, const Schema& schema, std::uint32_t offset, CompletionStyle style) {
+Json completion(Document& document, const Schema& schema, const OpenImport& open, std::uint32_t offset,
+                CompletionStyle style) {
     const Context context = context_at(document.analysis(schema), offset);
     const Analysis analysis = with_name(document, schema, context.word);
     Completion completion(document, analysis, context, style);
     if (context.where == Where::member) {
+        const auto token = token_at(analysis, context.word.begin + 1);
+        if (const ast::Import* import = token ? import_before_dot(analysis, *token) : nullptr) {
+            const auto imported = analyse_import(*import, document.path(), schema, open);
+            return completion.imported_names(imported.get());
+        }
         const Type object = type_before_dot(analysis, context.word);
         return completion.members(members_of(object.kind), object);
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lang/lsp/document.h"
+#include "lang/lsp/imports.h"
 
 namespace scc::lang::lsp {
 
@@ -9,6 +10,7 @@ struct CompletionStyle {
 };
 
 /// A CompletionList for the cursor at the offset.
-Json completion(Document& document, const Schema& schema, std::uint32_t offset, CompletionStyle style);
+Json completion(Document& document, const Schema& schema, const OpenImport& open, std::uint32_t offset,
+                CompletionStyle style);
 
 } // namespace scc::lang::lsp

@@ -120,7 +120,7 @@ void check_collisions(const Analysis& analysis, const Symbol& symbol, const std:
 
 } // namespace
 
-Json hover(Document& document, const Schema& schema, std::uint32_t offset) {
+Json hover(Document& document, const Schema& schema, const OpenImport& open, std::uint32_t offset) {
     const Analysis& analysis = document.analysis(schema);
     const auto token = token_at(analysis, offset);
     if (!token || analysis.tokens[*token].kind != TokenKind::name) {
@@ -134,6 +134,13 @@ Json hover(Document& document, const Schema& schema, std::uint32_t offset) {
         return code_hover(document, span,
                           declaration(*symbol, analysis) + value_of(document, *symbol, schema),
                           text_of(*symbol, *analysis.tree));
+    }
+    if (const ast::Import* import = import_before_dot(analysis, *token)) {
+        const auto imported = analyse_import(*import, document.path(), schema, open);
+        const Symbol* symbol = imported ? exported_symbol(*imported, analysis.text(span)) : nullptr;
+        return symbol ? code_hover(document, span, declaration(*symbol, *imported),
+                                   text_of(*symbol, *imported->tree))
+                      : Json(nullptr);
     }
     for (const MemberMention& member : analysis.symbols.members) {
         if (member.span == span && member.object.kind != TypeKind::error) {
@@ -153,9 +160,27 @@ Json hover(Document& document, const Schema& schema, std::uint32_t offset) {
     return nullptr;
 }
 
-Json definition(Document& document, const Schema& schema, std::uint32_t offset) {
-    const Symbol* symbol = symbol_at(document.analysis(schema), offset);
-    return symbol ? Json{{"uri", document.uri()}, {"range", document.range(symbol->span)}} : Json(nullptr);
+Json definition(Document& document, const Schema& schema, const OpenImport& open, std::uint32_t offset) {
+    const Analysis& analysis = document.analysis(schema);
+    if (const Symbol* symbol = symbol_at(analysis, offset)) {
+        return {{"uri", document.uri()}, {"range", document.range(symbol->span)}};
+    }
+    const auto token = token_at(analysis, offset);
+    if (!token) {
+        return nullptr;
+    }
+    const ast::Import* of_path = import_of_path(analysis, *token);
+    const ast::Import* import = of_path ? of_path : import_before_dot(analysis, *token);
+    const auto imported = import ? analyse_import(*import, document.path(), schema, open) : nullptr;
+    if (!imported) {
+        return nullptr;
+    }
+    const Symbol* symbol =
+        of_path ? nullptr : exported_symbol(*imported, analysis.text(analysis.tokens[*token].span));
+    const Span place = symbol ? symbol->span : Span{};
+    const Positions positions(imported->text(), document.encoding());
+    return {{"uri", uri_of(imported->sources.file(imported->file).path())},
+            {"range", range_in(positions, place.begin, place.end)}};
 }
 
 Json references(Document& document, const Schema& schema, std::uint32_t offset, bool with_definition) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lang/lsp/document.h"
+#include "lang/lsp/imports.h"
 
 #include <string>
 
@@ -8,8 +9,9 @@
 namespace scc::lang::lsp {
 
 /// Each gives null where there is nothing to say.
-Json hover(Document& document, const Schema& schema, std::uint32_t offset);
-Json definition(Document& document, const Schema& schema, std::uint32_t offset);
+Json hover(Document& document, const Schema& schema, const OpenImport& open, std::uint32_t offset);
+/// In another file, if an import has the name from there.
+Json definition(Document& document, const Schema& schema, const OpenImport& open, std::uint32_t offset);
 Json references(Document& document, const Schema& schema, std::uint32_t offset, bool with_definition);
 Json highlights(Document& document, const Schema& schema, std::uint32_t offset);
 Json prepare_rename(Document& document, const Schema& schema, std::uint32_t offset);

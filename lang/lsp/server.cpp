@@ -297,21 +297,38 @@ void Server::check(Document& document) {
           {"params", published(document, diagnostic_style_)}});
 }
 
+OpenImport Server::imports() const {
+    return [this](const std::string& from, const std::string& name) -> std::optional<SceneText> {
+        const std::unique_ptr<Importer> importer = importer_(from);
+        const ImportTarget target = importer->find(from, name);
+        if (target.status != ImportTarget::Status::found) {
+            return std::nullopt;
+        }
+        if (const auto open = documents_.find(uri_of(target.path)); open != documents_.end()) {
+            return SceneText{target.path, open->second.text()};
+        }
+        ImportText read = importer->read(target);
+        return read.problem.empty() ? std::optional(SceneText{target.path, std::move(read.text)})
+                                    : std::nullopt;
+    };
+}
+
 // ---- requests ------------------------------------------------------------------------------------------
 
 Json Server::completion(const Json& parameters) {
     Document& open = document(parameters);
-    return lsp::completion(open, schema_, open.offset(parameters.at("position")), completion_style_);
+    return lsp::completion(open, schema_, imports(), open.offset(parameters.at("position")),
+                           completion_style_);
 }
 
 Json Server::hover(const Json& parameters) {
     Document& open = document(parameters);
-    return lsp::hover(open, schema_, open.offset(parameters.at("position")));
+    return lsp::hover(open, schema_, imports(), open.offset(parameters.at("position")));
 }
 
 Json Server::definition(const Json& parameters) {
     Document& open = document(parameters);
-    return lsp::definition(open, schema_, open.offset(parameters.at("position")));
+    return lsp::definition(open, schema_, imports(), open.offset(parameters.at("position")));
 }
 
 Json Server::references(const Json& parameters) {

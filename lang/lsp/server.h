@@ -1,15 +1,19 @@
 #pragma once
 
+#include "lang/importer.h"
 #include "lang/lsp/channel.h"
 #include "lang/lsp/completion.h"
 #include "lang/lsp/document.h"
 #include "lang/lsp/framing.h"
+#include "lang/lsp/imports.h"
 #include "lang/lsp/reports.h"
 #include "lang/schema.h"
 
 #include <deque>
 #include <functional>
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -18,12 +22,17 @@ namespace scc::lang::lsp {
 /// Checks a text that stands for the file at a path.
 using CheckScene = std::function<Checked(const std::string& path, const std::string& text)>;
 
+/// The importer of a scene at a path.
+using ImporterFor = std::function<std::unique_ptr<Importer>(const std::string& path)>;
+
 /// A server of the Language Server Protocol (3.17). One thread: it takes whatever has arrived before it
 /// answers, and checks a document only when nothing waits, so that of many changes only the last is checked.
 class Server {
 public:
-    Server(const Schema& schema, CheckScene check, Channel& channel, std::string version)
-        : schema_(schema), check_(std::move(check)), channel_(channel), version_(std::move(version)) {}
+    Server(const Schema& schema, CheckScene check, ImporterFor importer, Channel& channel,
+           std::string version)
+        : schema_(schema), check_(std::move(check)), importer_(std::move(importer)), channel_(channel),
+          version_(std::move(version)) {}
 
     /// Serves until the client says `exit` or hangs up. True if it asked for `shutdown` before.
     bool run();
@@ -58,6 +67,8 @@ private:
     Json closed(const Json& parameters);
 
     Document& document(const Json& parameters);
+    /// As the client has the files, if they are open.
+    OpenImport imports() const;
     void check(Document& document);
     Document* first_unchecked();
 
@@ -69,6 +80,7 @@ private:
 
     const Schema& schema_;
     CheckScene check_;
+    ImporterFor importer_;
     Channel& channel_;
     std::string version_;
     Framing framing_;

@@ -1,7 +1,6 @@
 #include "runtime/host/layers.h"
 
 #include "runtime/host/json.h"
-#include "runtime/host/nearest.h"
 #include "runtime/host/options.h"
 
 #include <algorithm>
@@ -25,17 +24,13 @@ constexpr auto rows = std::to_array<AovRow>({{Aov::depth, "depth"},
 
 const AovRow& row_of(std::string_view name) {
     std::string all;
-    std::vector<std::string_view> names;
     for (const AovRow& row : rows) {
         if (row.name == name) {
             return row;
         }
-        names.emplace_back(row.name);
         all += (all.empty() ? "" : ", ") + std::string(row.name);
     }
-    const std::optional<std::string_view> best = nearest(name, names);
-    throw UsageError("there is no `" + std::string(name) + "`; " +
-                     (best ? "did you mean `" + std::string(*best) + "`?" : "there are " + all));
+    throw UsageError("there is no `" + std::string(name) + "`; there are " + all);
 }
 
 /// The numbers in the picture with their names, each once; `name_of` takes a number less 1.

@@ -196,7 +196,7 @@ TEST_F(CommandLine, WrongAovsAreUsageMistakes) {
         EXPECT_EQ(result.code, 2) << list;
         EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
     };
-    expect("normal,depht", "a.exr", "--aov: there is no `depht`; did you mean `depth`?");
+    expect("normal,depht", "a.exr", "--aov: there is no `depht`; there are depth, ");
     expect("everything", "a.exr", "there are depth, planar, position, normal, uv, object, material");
     expect("", "a.exr", "there is no ``");
     expect("depth,", "a.exr", "there is no ``");

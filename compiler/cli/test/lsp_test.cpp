@@ -422,6 +422,41 @@ TEST_F(Lsp, FindsDefinitionsAndReferences) {
     EXPECT_TRUE(at("textDocument/definition", Marked("sph|ere { }"))["result"].is_null());
 }
 
+TEST_F(Lsp, LooksIntoImportedFiles) {
+    const validation::ScratchFolder folder;
+    const std::string path = (folder.path() / "studio.scn").string();
+    host::replace_file(path, "param power: number = 1 in 0..9 \"of the lamp\"\nlet inner = 2\n");
+    const std::string scene = "file://" + (folder.path() / "a.scn").string();
+    const auto ask = [&](const char* method, const std::string& text) {
+        const Marked marked(text);
+        client.open(scene, marked.text, ++version);
+        return client.request(method,
+                              {{"textDocument", {{"uri", scene}}}, {"position", marked.position}})["result"];
+    };
+    open("");
+    const std::string import = "import \"studio.scn\" as studio\n";
+    const char* const definition = "textDocument/definition";
+    const Json place{{"uri", "file://" + path}, {"range", range(0, 6, 11)}};
+    EXPECT_EQ(ask(definition, import + "let a = studio.pow|er\n"), place);
+    EXPECT_EQ(ask(definition, "import \"stu|dio.scn\" as studio\n"),
+              (Json{{"uri", "file://" + path}, {"range", range(0, 0, 0)}}));
+    EXPECT_EQ(ask(definition, import + "let a = stud|io.power\n")["uri"], scene);
+    EXPECT_TRUE(ask(definition, import + "let a = (1, 2).|x\n").is_null());
+    EXPECT_TRUE(ask(definition, "import \"no|ne.scn\" as studio\n").is_null());
+    const std::string hover = ask("textDocument/hover", import + "let a = studio.|power\n").dump();
+    EXPECT_NE(hover.find("param power: number"), std::string::npos) << hover;
+    EXPECT_NE(hover.find("of the lamp"), std::string::npos) << hover;
+    std::set<std::string> offered;
+    const Json list = ask("textDocument/completion", import + "let a = studio.|\n");
+    for (const Json& item : list["items"]) {
+        offered.insert(item["label"]);
+    }
+    EXPECT_EQ(offered, (std::set<std::string>{"power", "inner", "scene"}));
+    // What the editor has of it counts.
+    client.open("file://" + path, "\nparam power: number = 1\n", ++version);
+    EXPECT_EQ(ask(definition, import + "let a = studio.pow|er\n")["range"], range(1, 6, 11));
+}
+
 TEST_F(Lsp, RenamesInItsScopeOnly) {
     EXPECT_EQ(renamed("let |a = 1\nfn f(a: number) = a\nsphere { radius = f(a) + (a) }\n", "size"),
               "let size = 1\nfn f(a: number) = a\nsphere { radius = f(size) + (size) }\n");

@@ -8,9 +8,8 @@
 #include <string_view>
 #include <vector>
 
-/// What a person may have meant by a word that is none of those that there are. Header-only, for the compiler
-/// and for built programs.
-namespace scc::host {
+/// What a person may have meant by a word that is none of those that there are.
+namespace scc::lang {
 
 namespace detail {
 
@@ -70,4 +69,4 @@ inline std::optional<std::string_view> nearest(std::string_view word,
     return best;
 }
 
-} // namespace scc::host
+} // namespace scc::lang
