@@ -182,7 +182,7 @@ private:
                 is_wide = is_wide || std::abs(std::int64_t{e.x}) + std::abs(std::int64_t{e.y}) > most_slope;
             }
         }
-        // Of the box's own edges: the last edge functions are 0 where all samples are inside.
+        // Edges that have the whole box inside need no test.
         for (int i = count; i < 3; ++i) {
             edges[static_cast<std::size_t>(i)] = {0, 0, 0};
         }
