@@ -23,7 +23,8 @@ public:
           crop_(crop), box_{crop.x0 * samples_, crop.y0 * samples_, crop.x1 * samples_, crop.y1 * samples_},
           first_column_(crop.x0 / pixels_), first_row_(crop.y0 / pixels_),
           across_((crop.x1 + pixels_ - 1) / pixels_ - first_column_),
-          down_((crop.y1 + pixels_ - 1) / pixels_ - first_row_) {}
+          down_((crop.y1 + pixels_ - 1) / pixels_ - first_row_),
+          inverse_((std::uint64_t{1} << 32U) / static_cast<std::uint64_t>(pixels_ * samples_) + 1) {}
 
     const SampleBox& box() const { return box_; }   ///< all samples that are drawn
     int samples_across() const { return samples_; } ///< a pixel
@@ -43,9 +44,8 @@ public:
     /// f(tile) for each that has some of the samples, which are drawn ones.
     template <class F>
     void for_each_tile(const SampleBox& samples, F&& f) const {
-        const int size = tile_samples();
-        const int x0 = samples.x0 / size - first_column_, x1 = (samples.x1 - 1) / size - first_column_,
-                  y0 = samples.y0 / size - first_row_, y1 = (samples.y1 - 1) / size - first_row_;
+        const int x0 = along(samples.x0) - first_column_, x1 = along(samples.x1 - 1) - first_column_,
+                  y0 = along(samples.y0) - first_row_, y1 = along(samples.y1 - 1) - first_row_;
         for (int y = y0; y <= y1; ++y) {
             for (int x = x0; x <= x1; ++x) {
                 f(static_cast<std::size_t>(y * across_ + x));
@@ -54,10 +54,16 @@ public:
     }
 
 private:
+    /// sample / tile_samples(), exactly for samples below 2^26.
+    int along(std::int32_t sample) const {
+        return static_cast<int>((static_cast<std::uint64_t>(sample) * inverse_) >> 32U);
+    }
+
     int samples_, pixels_;
     Crop crop_;
     SampleBox box_;
     int first_column_, first_row_, across_, down_;
+    std::uint64_t inverse_; ///< 2^32 / tile_samples(), rounded up
 };
 
 /// What one run of triangles or lines has for each tile, in their order.

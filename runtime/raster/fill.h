@@ -33,6 +33,8 @@ public:
             column_[k] = k % block_width;
             row_[k] = k / block_width;
         }
+        columns_ = L(__builtin_convertvector(column_, typename L::Vector));
+        rows_ = L(__builtin_convertvector(row_, typename L::Vector));
     }
 
     /// `left` and `top`: of the tile in the picture. `farthest`: what is not nearer is not shown.
@@ -58,6 +60,14 @@ public:
     std::uint32_t entry(std::size_t sample) const { return entry_[sample / N][sample % N]; }
     using Entries = runtime::detail::VectorType<std::uint32_t, N>;
     const Entries& entries(std::size_t block) const { return entry_[block]; }
+    /// The lanes of a block that show an entry, and those that show any.
+    MaskOf<L> shows(std::size_t block, std::uint32_t entry) const {
+        return from_grid(__builtin_convertvector(entry_[block] == (Entries{} + entry), Grid));
+    }
+    MaskOf<L> shown(std::size_t block) const { return !shows(block, no_entry); }
+    /// Of a block's lanes, from its first.
+    const L& columns() const { return columns_; }
+    const L& rows() const { return rows_; }
 
     /// Shows the triangle where nothing nearer is, or something equally near for which `earlier(entry, other
     /// entry)` holds.
@@ -154,6 +164,10 @@ private:
         if (box.empty()) {
             return;
         }
+        if (is_small(t)) {
+            cover_small(t, box, f);
+            return;
+        }
         std::array<Edge, 3> edges;
         bool is_wide = false;
         int count = 0;
@@ -168,7 +182,7 @@ private:
                 is_wide = is_wide || std::abs(std::int64_t{e.x}) + std::abs(std::int64_t{e.y}) > most_slope;
             }
         }
-        // Of the box's own edges: the last edge functions are 0 where all samples are inside.
+        // Edges that have the whole box inside need no test.
         for (int i = count; i < 3; ++i) {
             edges[static_cast<std::size_t>(i)] = {0, 0, 0};
         }
@@ -178,6 +192,47 @@ private:
             cover_blocks<std::int32_t>(t, edges, blocks, f);
         }
     }
+    /// So few samples across that edge functions have 32 bits even on the grid itself.
+    static bool is_small(const ScreenTriangle<R>& t) {
+        const auto [x0, x1] = std::minmax({t.x[0], t.x[1], t.x[2]});
+        const auto [y0, y1] = std::minmax({t.y[0], t.y[1], t.y[2]});
+        return std::max(x1 - x0, y1 - y0) <= 32 * grid;
+    }
+    template <class F>
+    void cover_small(const ScreenTriangle<R>& t, const SampleBox& box, F&& f) const {
+        const SampleBox blocks = whole_blocks(box);
+        const std::int32_t left = (left_ + blocks.x0) * grid, top = (top_ + blocks.y0) * grid;
+        Grid start[3];
+        std::int32_t step_x[3], step_y[3];
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t k = i == 2 ? 0 : i + 1;
+            const std::int32_t x = t.y[i] - t.y[k], y = t.x[k] - t.x[i];
+            const std::int32_t bias = x > 0 || (x == 0 && y > 0) ? 0 : 1;
+            const std::int32_t at = (y * (top - t.y[i]) + x * (left - t.x[i]) - bias) >> grid_bits;
+            start[i] = at + x * column_ + y * row_;
+            step_x[i] = x * block_width;
+            step_y[i] = y * block_height;
+        }
+        const std::int32_t from_column = left_ - t.z_column(), from_row = top_ - t.z_row();
+        for (std::int32_t y = blocks.y0; y < blocks.y1; y += block_height) {
+            Grid e0 = start[0], e1 = start[1], e2 = start[2];
+            const L z_row = L(t.z) + L(t.z_y) * (rows_ + L(static_cast<R>(from_row + y)));
+            std::size_t block = block_of(blocks.x0, y);
+            for (std::int32_t x = blocks.x0; x < blocks.x1; x += block_width, ++block) {
+                const Mask covered = from_grid((e0 | e1 | e2) >= 0);
+                if (any(covered)) {
+                    f(block, covered, z_row + L(t.z_x) * (columns_ + L(static_cast<R>(from_column + x))));
+                }
+                e0 += step_x[0];
+                e1 += step_x[1];
+                e2 += step_x[2];
+            }
+            start[0] += step_y[0];
+            start[1] += step_y[1];
+            start[2] += step_y[2];
+        }
+    }
+
     /// With slopes up to this, edge functions that are 0 somewhere in the tile have 32 bits all over it.
     static constexpr std::int64_t most_slope = 1 << 24;
 
@@ -200,18 +255,16 @@ private:
             step_x[i] = Ints<Int>{} + x * block_width;
             step_y[i] = Ints<Int>{} + y * block_height;
         }
-        const L column = L(__builtin_convertvector(column_, typename L::Vector)),
-                row = L(__builtin_convertvector(row_, typename L::Vector));
         const std::int32_t from_column = left_ - t.z_column(), from_row = top_ - t.z_row();
         for (std::int32_t y = box.y0; y < box.y1; y += block_height) {
             Ints<Int> e0 = row_start[0], e1 = row_start[1], e2 = row_start[2];
-            const L z_row = L(t.z) + L(t.z_y) * (row + L(static_cast<R>(from_row + y)));
+            const L z_row = L(t.z) + L(t.z_y) * (rows_ + L(static_cast<R>(from_row + y)));
             std::size_t block = block_of(box.x0, y);
             for (std::int32_t x = box.x0; x < box.x1; x += block_width, ++block) {
                 const auto outside = (e0 | e1 | e2) < 0;
                 const Mask covered = !from_grid(__builtin_convertvector(outside, Grid));
                 if (any(covered)) {
-                    f(block, covered, z_row + L(t.z_x) * (column + L(static_cast<R>(from_column + x))));
+                    f(block, covered, z_row + L(t.z_x) * (columns_ + L(static_cast<R>(from_column + x))));
                 }
                 e0 += step_x[0];
                 e1 += step_x[1];
@@ -226,6 +279,7 @@ private:
     std::vector<L> z_;
     std::vector<Entries> entry_;
     Grid column_{}, row_{}; ///< of a block's lanes
+    L columns_, rows_;      ///< the same
     int left_ = 0, top_ = 0;
 };
 

@@ -83,9 +83,9 @@ constexpr std::int64_t floor_divide(std::int64_t a, std::int64_t b) {
 
 } // namespace detail
 
-/// f(column, row, z) for the samples of a line whose places along its longer direction are in [begin, end).
-/// A sample is drawn where the line leaves the diamond |x| + |y| < 1/2 around its centre; a wide line is as
-/// many of these side by side.
+/// f(column, row, z) for the samples of a line, of those in the box and a few around it. A sample is drawn
+/// where the line leaves the diamond |x| + |y| < 1/2 around its centre; a wide line is as many of these side
+/// by side, across its longer direction.
 template <class R, class F>
 void draw_line(const ScreenLine<R>& line, const SampleBox& box, F&& f) {
     const std::int64_t dx = std::int64_t{line.x1} - line.x0, dy = std::int64_t{line.y1} - line.y0;

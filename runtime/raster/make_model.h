@@ -19,7 +19,7 @@ namespace scc::runtime {
 
 namespace detail {
 
-/// A mesh of the shape's kind has triangles that are the surface itself.
+/// Its normals are for shading alone: the geometric one is the triangle's.
 template <class Shape>
 inline constexpr bool is_triangle = requires(const Shape& s) {
     s.smooth;

@@ -35,11 +35,17 @@ public:
     /// Finds what the tile's samples show.
     void show(int tile) {
         const auto index = static_cast<std::size_t>(tile);
+        entries_.clear();
+        through_.clear();
+        const bool is_empty = std::all_of(bins_.begin(), bins_.end(), [&](const Bin<R>& bin) {
+            return bin.triangles_of[index].empty() && bin.lines_of[index].empty();
+        });
+        if (is_empty) {
+            return;
+        }
         buffer_.clear(tiles_.left_of(tile), tiles_.top_of(tile),
                       view_.clips_depth() ? R(1) : std::numeric_limits<R>::max());
         shader_.start(buffer_.left(), buffer_.top());
-        entries_.clear();
-        through_.clear();
         const auto earlier = [this](std::uint32_t a, std::uint32_t b) { return is_earlier(a, b); };
         for (const Bin<R>& bin : bins_) {
             for (const std::uint32_t i : bin.triangles_of[index]) {
@@ -71,11 +77,20 @@ public:
     /// Its pixels' light, and z* if asked for, into pictures of the crop's size.
     void paint(int tile, const Crop& crop, Image& image, std::vector<R>* pseudodepth) {
         const Crop pixels = tiles_.pixels_of(tile);
-        find_fragments();
+        if (entries_.empty()) {
+            store_background(pixels, crop, image);
+            if (pseudodepth != nullptr) {
+                store_no_depth(pixels, crop, image.width, *pseudodepth);
+            }
+            return;
+        }
+        if constexpr (S::traits.transmission) {
+            find_fragments();
+        }
         number_samples(pixels);
         shader_.prepare();
         shade(pixels);
-        if (!fragments_.empty()) {
+        if constexpr (S::traits.transmission) {
             blend();
         }
         store(pixels, crop, image);
@@ -87,16 +102,20 @@ public:
     /// What its pixels' centres show beside light; see draw_raster_aovs.
     void store_aovs(int tile, const Crop& crop, AovImage& to) {
         const Crop pixels = tiles_.pixels_of(tile);
-        number_samples(pixels);
-        shader_.prepare();
+        const bool is_empty = entries_.empty();
+        if (!is_empty) {
+            number_samples(pixels);
+            shader_.prepare();
+        }
+        const int left = tiles_.left_of(tile), top = tiles_.top_of(tile);
         for (int y = pixels.y0; y < pixels.y1; ++y) {
             for (int x = pixels.x0; x < pixels.x1; ++x) {
                 const std::size_t i =
                     static_cast<std::size_t>(y - crop.y0) * static_cast<std::size_t>(to.width) +
                     static_cast<std::size_t>(x - crop.x0);
                 const std::uint32_t entry =
-                    buffer_.entry(Buffer::sample_of(x - buffer_.left(), y - buffer_.top()));
-                store_aovs(x - buffer_.left(), y - buffer_.top(), entry, i, to);
+                    is_empty ? no_entry : buffer_.entry(Buffer::sample_of(x - left, y - top));
+                store_aovs(x - left, y - top, entry, i, to);
             }
         }
     }
@@ -175,9 +194,12 @@ private:
     }
 
     void number_samples(const Crop& pixels) {
+        std::uint32_t last = no_entry;
         for_each_block(pixels, [&](std::size_t block, int, int) {
+            if (all(buffer_.shows(block, last))) {
+                return;
+            }
             const auto& entries = buffer_.entries(block);
-            std::uint32_t last = no_entry;
             for (int k = 0; k < N; ++k) {
                 if (entries[k] != last) {
                     last = entries[k];
@@ -192,30 +214,26 @@ private:
     void shade(const Crop& pixels) {
         const Rgb<L> background = lanes<L>(Rgb<R>(scene_.background));
         for_each_block(pixels, [&](std::size_t block, int x, int y) {
-            const auto& entries = buffer_.entries(block);
-            typename Shader::Numbers numbers;
-            MaskOf<L> active(true);
-            std::uint32_t some = no_entry;
-            for (int k = 0; k < N; ++k) {
-                const std::uint32_t entry = entries[k];
-                numbers[static_cast<std::size_t>(k)] = entry == no_entry ? no_entry : entries_[entry].number;
-                if (entry == no_entry) {
-                    set_lane(active, k, false);
-                } else {
-                    some = entries_[entry].number;
-                }
-            }
-            if (some == no_entry) {
+            const auto active = buffer_.shown(block);
+            if (none(active)) {
                 light_[block] = background;
                 return;
             }
-            std::replace(numbers.begin(), numbers.end(), no_entry, some);
-            L column, row;
-            for (int k = 0; k < N; ++k) {
-                set_lane(column, k, static_cast<R>(x + k % Buffer::block_width));
-                set_lane(row, k, static_cast<R>(y + k / Buffer::block_width));
+            typename Shader::Numbers numbers;
+            const auto& entries = buffer_.entries(block);
+            const std::uint32_t some = entries[first_lane(active)];
+            if (all(buffer_.shows(block, some))) {
+                numbers.fill(entries_[some].number);
+            } else {
+                for (int k = 0; k < N; ++k) {
+                    const std::uint32_t entry = entries[k] == no_entry ? some : entries[k];
+                    numbers[static_cast<std::size_t>(k)] = entries_[entry].number;
+                }
             }
-            light_[block] = choose(active, shader_.shade(numbers, column, row, active).light, background);
+            const L column = buffer_.columns() + L(static_cast<R>(x)),
+                    row = buffer_.rows() + L(static_cast<R>(y));
+            const Rgb<L> light = shader_.shade(numbers, column, row, active).light;
+            light_[block] = all(active) ? light : choose(active, light, background);
         });
     }
 
@@ -259,6 +277,10 @@ private:
     /// + 0 as in ray pictures: no -0.
     void store(const Crop& pixels, const Crop& crop, Image& image) const {
         const int n = tiles_.samples_across();
+        if (n == 1) {
+            store_samples(pixels, crop, image);
+            return;
+        }
         for (int y = pixels.y0; y < pixels.y1; ++y) {
             float* to = image.at(pixels.x0 - crop.x0, y - crop.y0);
             for (int x = pixels.x0; x < pixels.x1; ++x, to += 3) {
@@ -275,6 +297,41 @@ private:
             }
         }
     }
+    /// One for each pixel.
+    void store_samples(const Crop& pixels, const Crop& crop, Image& image) const {
+        for_each_block(pixels, [&](std::size_t block, int column, int row) {
+            R red[N], green[N], blue[N];
+            store_lanes(red, light_[block].r);
+            store_lanes(green, light_[block].g);
+            store_lanes(blue, light_[block].b);
+            const int x = buffer_.left() + column, y = buffer_.top() + row;
+            const int x0 = std::max(x, pixels.x0), x1 = std::min(x + Buffer::block_width, pixels.x1),
+                      y0 = std::max(y, pixels.y0), y1 = std::min(y + Buffer::block_height, pixels.y1);
+            for (int j = y0; j < y1; ++j) {
+                float* to = image.at(x0 - crop.x0, j - crop.y0);
+                int k = (j - y) * Buffer::block_width + x0 - x;
+                for (int i = x0; i < x1; ++i, ++k, to += 3) {
+                    to[0] = static_cast<float>(red[k]) + 0.0F;
+                    to[1] = static_cast<float>(green[k]) + 0.0F;
+                    to[2] = static_cast<float>(blue[k]) + 0.0F;
+                }
+            }
+        });
+    }
+    void store_background(const Crop& pixels, const Crop& crop, Image& image) const {
+        const Rgb<R> background(scene_.background);
+        const float color[] = {static_cast<float>(background.r) + 0.0F,
+                               static_cast<float>(background.g) + 0.0F,
+                               static_cast<float>(background.b) + 0.0F};
+        float* const first = image.at(pixels.x0 - crop.x0, pixels.y0 - crop.y0);
+        const std::ptrdiff_t numbers = std::ptrdiff_t{3} * (pixels.x1 - pixels.x0);
+        for (std::ptrdiff_t i = 0; i < numbers; ++i) {
+            first[i] = color[i % 3];
+        }
+        for (int y = pixels.y0 + 1; y < pixels.y1; ++y) {
+            std::copy_n(first, numbers, image.at(pixels.x0 - crop.x0, y - crop.y0));
+        }
+    }
     Rgb<R> light_at(int column, int row) const {
         const std::size_t sample = Buffer::sample_of(column, row);
         const Rgb<L>& light = light_[sample / N];
@@ -282,6 +339,12 @@ private:
         return {lane(light.r, k), lane(light.g, k), lane(light.b, k)};
     }
 
+    static void store_no_depth(const Crop& pixels, const Crop& crop, int width, std::vector<R>& to) {
+        for (int y = pixels.y0; y < pixels.y1; ++y) {
+            const auto first = to.begin() + std::ptrdiff_t{y - crop.y0} * width + (pixels.x0 - crop.x0);
+            std::fill(first, first + (pixels.x1 - pixels.x0), R(1));
+        }
+    }
     void store_depth(const Crop& pixels, const Crop& crop, int width, std::vector<R>& to) const {
         const int n = tiles_.samples_across();
         for (int y = pixels.y0; y < pixels.y1; ++y) {

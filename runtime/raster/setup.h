@@ -16,38 +16,38 @@ namespace scc::runtime::raster {
 
 namespace detail {
 
-template <class R>
+template <class L>
 struct DepthPlane {
-    R at, x, y; ///< at a place, and its slopes
+    L at, x, y; ///< at a place, and its slopes
 };
 
-/// Of z* over a triangle, at (column, row). Of one that is so thin that the grid moves its edges by a good
+/// Of z* over triangles, at (column, row). Of one that is so thin that the grid moves its edges by a good
 /// part of its width, along its longest edge alone: across, its slope would be accidental.
-template <class R>
-DepthPlane<R> depth_plane(const std::array<ClipPoint<R>, 3>& p, R column, R row) {
-    const auto length = [&](std::size_t i) {
-        const std::size_t k = (i + 1) % 3;
-        return square(p[k].x - p[i].x) + square(p[k].y - p[i].y);
-    };
-    const R x1 = p[1].x - p[0].x, y1 = p[1].y - p[0].y, x2 = p[2].x - p[0].x, y2 = p[2].y - p[0].y;
-    const R z1 = p[1].z - p[0].z, z2 = p[2].z - p[0].z;
-    const R area = x1 * y2 - x2 * y1;
-    const std::array<R, 3> lengths{length(0), length(1), length(2)};
-    const std::size_t longest =
-        static_cast<std::size_t>(std::max_element(lengths.begin(), lengths.end()) - lengths.begin());
-    DepthPlane<R> result{};
-    std::size_t from = 0;
-    if (area * area > lengths[longest] * square(thin_width<R>)) {
-        result.x = (z1 * y2 - z2 * y1) / area;
-        result.y = (z2 * x1 - z1 * x2) / area;
-    } else {
-        from = longest;
-        const ClipPoint<R>&a = p[from], &b = p[(from + 1) % 3];
-        const R slope = lengths[longest] > 0 ? (b.z - a.z) / lengths[longest] : R(0);
-        result.x = slope * (b.x - a.x);
-        result.y = slope * (b.y - a.y);
+template <class L>
+DepthPlane<L> depth_plane(const std::array<ClipPoint<L>, 3>& p, const L& column, const L& row) {
+    using R = RealOf<L>;
+    const L x1 = p[1].x - p[0].x, y1 = p[1].y - p[0].y, z1 = p[1].z - p[0].z;
+    const L x2 = p[2].x - p[0].x, y2 = p[2].y - p[0].y, z2 = p[2].z - p[0].z;
+    const L x3 = x2 - x1, y3 = y2 - y1, z3 = z2 - z1;
+    const L area = x1 * y2 - x2 * y1, inverse = L(1) / area;
+    const L first = x1 * x1 + y1 * y1, second = x2 * x2 + y2 * y2, third = x3 * x3 + y3 * y3;
+    const L longest = maximum(maximum(first, second), third);
+    DepthPlane<L> result{{}, (z1 * y2 - z2 * y1) * inverse, (z2 * x1 - z1 * x2) * inverse};
+    const MaskOf<L> thin = !(area * area > longest * L(square(thin_width<R>)));
+    MaskOf<L> from_second(false);
+    if (any(thin)) {
+        const MaskOf<L> is_first = first == longest, is_second = second == longest;
+        from_second = thin & !is_first & !is_second;
+        const L x = choose(is_first, x1, choose(is_second, x2, x3)),
+                y = choose(is_first, y1, choose(is_second, y2, y3)),
+                z = choose(is_first, z1, choose(is_second, z2, z3));
+        const L slope = choose(longest > 0, z / longest, L(0));
+        result.x = choose(thin, slope * x, result.x);
+        result.y = choose(thin, slope * y, result.y);
     }
-    result.at = p[from].z + result.x * (column - p[from].x) + result.y * (row - p[from].y);
+    const auto from = [&](const L& a, const L& b) { return choose(from_second, b, a); };
+    result.at = from(p[0].z, p[1].z) + result.x * (column - from(p[0].x, p[1].x)) +
+                result.y * (row - from(p[0].y, p[1].y));
     return result;
 }
 
@@ -182,6 +182,14 @@ private:
             y[c] = on_grid(p[c].y);
         }
         among &= may_cover(x, y);
+        if (among == 0) {
+            return;
+        }
+        const auto sample = [](const GridPack<L>& v) {
+            const GridPack<L> whole = v >> grid_bits;
+            return L(__builtin_convertvector(whole, typename L::Vector)) + L(R(0.5));
+        };
+        const detail::DepthPlane<L> depth = detail::depth_plane(p, sample(x[0]), sample(y[0]));
         for (; among != 0; among &= among - 1) {
             const int k = __builtin_ctz(among);
             ScreenTriangle<R> t;
@@ -189,8 +197,10 @@ private:
                 t.x[c] = x[c][k];
                 t.y[c] = y[c][k];
             }
-            store({lane_of(p[0], k), lane_of(p[1], k), lane_of(p[2], k)}, flags,
-                  number + static_cast<std::uint32_t>(k), t, bin);
+            t.z = lane(depth.at, k);
+            t.z_x = lane(depth.x, k);
+            t.z_y = lane(depth.y, k);
+            store(flags, number + static_cast<std::uint32_t>(k), t, bin);
         }
     }
     /// The lanes in whose bounding boxes there are sample centres that are drawn.
@@ -212,31 +222,27 @@ private:
         const std::uint32_t codes =
             guard_.outcode(corners[0]) | guard_.outcode(corners[1]) | guard_.outcode(corners[2]);
         const ClippedPolygon<R> polygon = clip_triangle(guard_, corners, codes);
-        std::array<ClipPoint<R>, 3 + ClipVolume<R>::planes> divided;
         for (std::size_t i = 0; i < polygon.count; ++i) {
             const ClipPoint<R>& p = polygon.corners[i];
             const R inverse = 1 / p.w;
-            divided[i] = {p.x * inverse, p.y * inverse, p.z * inverse, p.w};
-            if (!(absolute(divided[i].x - view_.guard_x()) <= 2 * view_.guard() &&
-                  absolute(divided[i].y - view_.guard_y()) <= 2 * view_.guard() &&
-                  absolute(divided[i].z) < most_coordinate<R>)) {
+            if (!(absolute(p.x * inverse - view_.guard_x()) <= 2 * view_.guard() &&
+                  absolute(p.y * inverse - view_.guard_y()) <= 2 * view_.guard() &&
+                  absolute(p.z * inverse) < most_coordinate<R>)) {
                 return; // too close to the eye, or too far away, to be calculated with
             }
         }
         for (std::size_t i = 2; i < polygon.count; ++i) {
-            const std::array<ClipPoint<R>, 3> p{divided[0], divided[i - 1], divided[i]};
-            ScreenTriangle<R> t;
-            for (std::size_t c = 0; c < 3; ++c) {
-                t.x[c] = on_grid(p[c].x);
-                t.y[c] = on_grid(p[c].y);
+            std::array<Corner, 3> p;
+            std::size_t c = 0;
+            for (const std::size_t corner : {std::size_t{0}, i - 1, i}) {
+                const ClipPoint<R>& q = polygon.corners[corner];
+                p[c++] = {L(q.x), L(q.y), L(q.z), L(q.w)};
             }
-            store(p, flags, number, t, bin);
+            place(p, flags, number, 1, bin);
         }
     }
 
-    /// `p`: where the corners are exactly.
-    void store(const std::array<ClipPoint<R>, 3>& p, const Flags& flags, std::uint32_t number,
-               ScreenTriangle<R>& t, Bin<R>& bin) const {
+    void store(const Flags& flags, std::uint32_t number, ScreenTriangle<R>& t, Bin<R>& bin) const {
         const std::int64_t area = std::int64_t{t.x[1] - t.x[0]} * (t.y[2] - t.y[0]) -
                                   std::int64_t{t.x[2] - t.x[0]} * (t.y[1] - t.y[0]);
         if (area == 0) {
@@ -252,11 +258,6 @@ private:
             return;
         }
         t.id = number | (back ? flags.back : flags.front);
-        const auto depth =
-            detail::depth_plane(p, static_cast<R>(t.z_column()) + R(0.5), static_cast<R>(t.z_row()) + R(0.5));
-        t.z = depth.at;
-        t.z_x = depth.x;
-        t.z_y = depth.y;
         if (choice_.pushes_back) {
             t.z += std::max(absolute(t.z_x), absolute(t.z_y)) + 16 * std::numeric_limits<float>::epsilon();
         }

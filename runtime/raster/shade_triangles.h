@@ -158,10 +158,12 @@ private:
     }
     template <class Get>
     IndexOf<L> gather_index(const Numbers& numbers, Get&& get) const {
-        IndexOf<L> result;
+        typename IndexOf<L>::Number values[N];
         for (int k = 0; k < N; ++k) {
-            set_lane(result, k, get(shown(numbers, k)));
+            values[k] = get(shown(numbers, k));
         }
+        IndexOf<L> result;
+        std::memcpy(&result.v, values, sizeof result.v);
         return result;
     }
     /// The value of the Linear at `at`.
@@ -341,8 +343,7 @@ private:
     }
 
     Corners3 corners_of(const Numbers& numbers) const {
-        R values[21][N];
-        L mirrored(1);
+        R values[22][N];
         for (int k = 0; k < N; ++k) {
             const Shown& s = shown(numbers, k);
             const std::uint32_t i = (s.id & triangle_number) - s.surface->first;
@@ -359,7 +360,7 @@ private:
                 values[13 + 3 * c][k] = normals[c].y;
                 values[14 + 3 * c][k] = normals[c].z;
             }
-            set_lane(mirrored, k, s.surface->is_mirrored ? R(-1) : R(1));
+            values[21][k] = s.surface->is_mirrored ? R(-1) : R(1);
         }
         Corners3 result;
         const auto vector = [&](std::size_t n) {
@@ -373,7 +374,7 @@ private:
         const auto edge = [&](std::size_t c) {
             return result.points[c] - result.points[0] * result.weights[c];
         };
-        result.geometric = normalize(cross(edge(1), edge(2))) * mirrored;
+        result.geometric = normalize(cross(edge(1), edge(2))) * from_lanes(values[21]);
         for (Vec3<L>& normal : result.normals) { // those that a mesh lacks
             const Mask missing = (normal.x == 0) & (normal.y == 0) & (normal.z == 0);
             normal = choose(missing, result.geometric, normal);
@@ -383,10 +384,8 @@ private:
 
     Seen<L> light_vertex(const Numbers& numbers, const Corners3& corners, std::size_t c,
                          const Mask& active) const {
-        L side(1);
-        for (int k = 0; k < N; ++k) {
-            set_lane(side, k, (shown(numbers, k).id & seen_from_back) != 0 ? R(-1) : R(1));
-        }
+        const L side = gather(numbers, false,
+                              [](const Shown& s) { return (s.id & seen_from_back) != 0 ? R(-1) : R(1); });
         const Vec3<L> normal = normalize(corners.normals[c]);
         SurfacePoint<L> point{};
         point.world = corners.points[c];
