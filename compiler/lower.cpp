@@ -942,7 +942,8 @@ void leave_surfaces_alone(ir::Scene& scene, lang::Diagnostics& diagnostics) {
     };
     for (ir::Material& material : scene.materials) {
         if (material.phong.bump != runtime::no_function) {
-            diagnostics.report(Diag::raster_leaves_out, material.span, "bumps", "the surface is lit as if smooth");
+            diagnostics.report(Diag::raster_leaves_out, material.span, "bumps",
+                               "the surface is lit as if smooth");
         }
         leave_alone(material.phong);
         std::for_each(material.bands.begin(), material.bands.end(), leave_alone);

@@ -299,7 +299,8 @@ void check_raster_camera(const Thing& thing, const ir::Scene& scene, lang::Diagn
     if (scene.camera.projection == runtime::Projection::spherical) {
         diagnostics.report(Diag::raster_needs_plane, thing.span);
     } else if (scene.camera.lens_radius > 0) {
-        diagnostics.report(Diag::raster_leaves_out, place_of(thing, "aperture"), "lens", "everything is drawn sharp");
+        diagnostics.report(Diag::raster_leaves_out, place_of(thing, "aperture"), "lens",
+                           "everything is drawn sharp");
     }
 }
 

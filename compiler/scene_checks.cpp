@@ -122,28 +122,32 @@ void check_depth(const lang::Module& module, const ir::Scene& scene, lang::Diagn
     }
 }
 
-/// Raster mode makes triangles of everything but planes, which a surface without end has no number of.
+/// Why raster mode has no triangles for a shape; empty: it has.
+std::string obstacle_to_raster(const ir::Scene& scene, const ir::Shape& shape) {
+    if (std::holds_alternative<runtime::Quadric<double>>(shape) && !object_bounds(shape, scene)) {
+        return "a quadric has bounds only by `within`";
+    }
+    std::string obstacle;
+    if (const auto* solid = std::get_if<runtime::Csg<double>>(&shape)) {
+        ir::for_each_csg_node(scene, *solid, [&](const ir::CsgNode& node) {
+            if (node.op == runtime::CsgOp::member && obstacle.empty()) {
+                const ir::Shape& member = scene.members[node.member].shape;
+                obstacle = std::holds_alternative<runtime::Mesh<double>>(member)
+                               ? "there is a mesh in it"
+                               : obstacle_to_raster(scene, member);
+            }
+        });
+    }
+    return obstacle;
+}
+
 void check_raster(const ir::Scene& scene, lang::Diagnostics& diagnostics) {
     if (scene.settings.method != runtime::Method::raster) {
         return;
     }
-    const auto is_endless = [&](const ir::Object& object) {
-        return std::holds_alternative<runtime::Quadric<double>>(object.shape) &&
-               !object_bounds(object.shape, scene);
-    };
     for (const ir::Object& object : scene.objects) {
-        const auto* solid = std::get_if<runtime::Csg<double>>(&object.shape);
-        bool is_left_out = is_endless(object);
-        if (solid != nullptr) {
-            ir::for_each_csg_node(scene, *solid, [&](const ir::CsgNode& node) {
-                is_left_out = is_left_out ||
-                              (node.op == runtime::CsgOp::member && is_endless(scene.members[node.member]));
-            });
-        }
-        if (is_left_out) {
-            diagnostics.report(Diag::raster_unbounded, object.span,
-                               solid != nullptr ? "one of its quadrics has no `within`"
-                                                : "`within` gives a quadric bounds");
+        if (const std::string obstacle = obstacle_to_raster(scene, object.shape); !obstacle.empty()) {
+            diagnostics.report(Diag::raster_left_out, object.span, obstacle);
         }
     }
 }

@@ -53,7 +53,7 @@ Refraction<L> refract_bumped(const Vec3<L>& dir, const Vec3<L>& normal, const Ve
     const Refraction<L> bumped = refract(dir, normal, from, to), flat = refract(dir, facing, from, to);
     const MaskOf<L> is_wrong = (dot(dir, normal) > 0) | (dot(bumped.dir, facing) > 0);
     return {choose(is_wrong, flat.dir, bumped.dir), choose(is_wrong, flat.reflectance, bumped.reflectance),
-            MaskOf<L>((is_wrong & flat.is_total) | (!is_wrong & bumped.is_total))};
+            MaskOf<L>((is_wrong & flat.is_total) | (bumped.is_total & !is_wrong))};
 }
 
 } // namespace scc::runtime

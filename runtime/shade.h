@@ -190,15 +190,16 @@ private:
         Encounter<L>& at = pack.at;
         const Vec3<L>& outward = at.surface.normal;
         pack.facing = choose(dot(outward, ray.dir) > 0, -outward, outward);
-        for_each_material<L>(scene_, at.material, pack.active, [&](const Phong<R>& material, const Mask& here, bool) {
-            if (material.bump != no_function) {
-                const Dual<L, 3> height =
-                    scene_.number_function(material.bump, with_slopes(at.point, at.slopes));
-                const Vec3<L> slope{height.d[0], height.d[1], height.d[2]};
-                at.normal = choose(here, bumped_normal(at.normal, outward, slope), at.normal);
-                pack.is_bumped = pack.is_bumped | here;
-            }
-        });
+        for_each_material<L>(
+            scene_, at.material, pack.active, [&](const Phong<R>& material, const Mask& here, bool) {
+                if (material.bump != no_function) {
+                    const Dual<L, 3> height =
+                        scene_.number_function(material.bump, with_slopes(at.point, at.slopes));
+                    const Vec3<L> slope{height.d[0], height.d[1], height.d[2]};
+                    at.normal = choose(here, bumped_normal(at.normal, outward, slope), at.normal);
+                    pack.is_bumped = pack.is_bumped | here;
+                }
+            });
     }
     /// s.m. A bump is not lit by what its surface itself is turned away from.
     L cosine_towards(const Vec3<L>& to_light, const Pack& pack) const {
