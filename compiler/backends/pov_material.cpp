@@ -23,10 +23,10 @@ constexpr std::string_view uv_and_point =
     "POV-Ray maps a texture by uv or by the point, and this material reads both";
 /// Values of heights beyond are cut where they have no bounds.
 constexpr double largest_height = 1000;
-/// The differences that POV-Ray's normals are made of, in its units: 1e-6 of a scene of unit size. Their own
+/// The differences that POV-Ray's normals are made of, in its units. Their own
 /// error grows with it, while that of rounding falls, which was measured to be at most 9e-10 of the heights'
 /// range over the difference.
-constexpr double bump_delta = 6.4e-5;
+constexpr double bump_delta = 6.4e-6;
 constexpr double bump_rounding = 1e-9;
 /// Stands for one that POV-Ray cannot calculate.
 constexpr double usual_shininess = 32;
@@ -152,7 +152,8 @@ std::string PovMaterials::normal(std::int32_t bump, std::uint32_t material,
         outcome.how = "the surface stays smooth: " + outcome.how;
     } else {
         outcome.fidelity = Fidelity::approximated;
-        outcome.how = fmt::format("normals from differences over {}; {}", number(delta), outcome.how);
+        outcome.how = fmt::format("normals from differences over {}, bound of their rounding; {}",
+                                  number(delta), outcome.how);
         outcome.bound = std::max(outcome.bound, bump_rounding * range / delta);
     }
     outcome.how =
