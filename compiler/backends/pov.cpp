@@ -34,8 +34,8 @@ class PovExport {
 public:
     PovExport(const ir::Scene& scene, Ledger& ledger, ExportFiles& files, const lang::SourceSet* sources)
         : scene_(scene), ledger_(ledger), sources_(sources), frame_(choose_frame(scene)),
-          in_union_(needs_object_union(scene)), materials_(scene, files, functions_, textures_, ledger),
-          files_(files) {}
+          in_union_(needs_object_union(scene)),
+          materials_(scene, frame_.scale, files, functions_, textures_, ledger), files_(files) {}
 
     std::string run() {
         emit_camera();

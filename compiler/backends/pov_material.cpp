@@ -23,8 +23,11 @@ constexpr std::string_view uv_and_point =
     "POV-Ray maps a texture by uv or by the point, and this material reads both";
 /// Values of heights beyond are cut where they have no bounds.
 constexpr double largest_height = 1000;
-/// The differences that POV-Ray's normals are made of: their error grows with it, and that of rounding falls.
-constexpr std::string_view bump_delta = "1e-7";
+/// The differences that POV-Ray's normals are made of, in its units. Their own
+/// error grows with it, while that of rounding falls, which was measured to be at most 9e-10 of the heights'
+/// range over the difference.
+constexpr double bump_delta = 6.4e-6;
+constexpr double bump_rounding = 1e-9;
 /// Stands for one that POV-Ray cannot calculate.
 constexpr double usual_shininess = 32;
 
@@ -36,10 +39,10 @@ void include(InputRanges& all, const InputRanges& more) {
 
 } // namespace
 
-PovMaterials::PovMaterials(const ir::Scene& scene, ExportFiles& files, Writer& functions, Writer& textures,
-                           Ledger& ledger)
-    : scene_(scene), functions_(scene.functions, files, functions), textures_(textures), ledger_(ledger),
-      ranges_(scene.materials.size()), noted_(scene.materials.size()) {
+PovMaterials::PovMaterials(const ir::Scene& scene, double scale, ExportFiles& files, Writer& functions,
+                           Writer& textures, Ledger& ledger)
+    : scene_(scene), scale_(scale), functions_(scene.functions, files, functions), textures_(textures),
+      ledger_(ledger), ranges_(scene.materials.size()), noted_(scene.materials.size()) {
     constexpr double inf = std::numeric_limits<double>::infinity();
     for (InputRanges& ranges : ranges_) {
         ranges.fill({inf, -inf});
@@ -137,18 +140,28 @@ Paint PovMaterials::shininess(const runtime::Varying<double>& value, std::uint32
 
 /// POV-Ray subtracts 5 a (0.02 / delta) times the sum of h(p + delta v) v over the corners v of a regular
 /// tetrahedron: 2/15 a times the gradient of h. Without no_bump_scale it would do so to normals of unit
-/// length in the object's space, and not to what the object's transform makes of the world's.
+/// length in the object's space, and not to what the object's transform makes of the world's. Its world is
+/// `scale_` times as large, and so are heights.
 std::string PovMaterials::normal(std::int32_t bump, std::uint32_t material,
                                  const Affine<double>* world_from_object) {
     auto [height, outcome] =
         functions_.scaled_number(bump, {ranges_[material], largest_height, world_from_object, {}});
+    const double range = height.high - height.low, delta = bump_delta / scale_;
     const bool dropped = outcome.fidelity == Fidelity::dropped;
-    outcome.how = fmt::format("function `{}`: {}", scene_.functions[static_cast<std::size_t>(bump)].name,
-                              dropped ? "the surface stays smooth: " + outcome.how : outcome.how);
+    if (dropped) {
+        outcome.how = "the surface stays smooth: " + outcome.how;
+    } else {
+        outcome.fidelity = Fidelity::approximated;
+        outcome.how = fmt::format("normals from differences over {}, bound of their rounding; {}",
+                                  number(delta), outcome.how);
+        outcome.bound = std::max(outcome.bound, bump_rounding * range / delta);
+    }
+    outcome.how =
+        fmt::format("function `{}`: {}", scene_.functions[static_cast<std::size_t>(bump)].name, outcome.how);
     note(material, "phong bump", outcome);
     return dropped ? ""
                    : fmt::format("normal {{ function {{ {} }} {} accuracy {} no_bump_scale }}", height.t,
-                                 number(7.5 * (height.high - height.low)), bump_delta);
+                                 number(7.5 * range * scale_), number(delta));
 }
 
 std::pair<Paint, Fidelity> PovMaterials::paint(std::int32_t function, std::string_view field,
