@@ -686,7 +686,7 @@ Constructor raster() {
                        {.name = "clip",
                         .type = TypeKind::boolean,
                         .default_value = boolean(true),
-                        .doc = "against the view volume"},
+                        .doc = "at the near and the far plane; the sides of the window always cut"},
                        {.name = "cull",
                         .type = TypeKind::string,
                         .default_value = text("none"),

@@ -354,6 +354,9 @@ std::string sum_text(const compiler::ir::Scene& scene, const runtime::RenderSett
 } // namespace
 
 std::string explain_pixel(const Loaded& loaded, const ExplainOptions& options) {
+    if (loaded.scene.settings.method == runtime::Method::raster) {
+        throw host::UsageError("--pixel follows rays, which a raster picture has not; `--mode ray` does");
+    }
     const compiler::ir::Scene& scene = loaded.scene;
     runtime::RenderRequest request = make_request(options.render, scene.settings);
     const bool is_plain = is_plain_grid(request.settings);

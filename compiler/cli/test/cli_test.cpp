@@ -56,7 +56,6 @@ TEST_F(CommandLine, UsageMistakesExitWith2) {
                             {"render", "s.scn", "-o", "a.png", "--crop", "0,0,5000,10"},
                             {"render", "s.scn", "-o", "a.png", "--bits", "12"},
                             {"render", "s.scn", "-o", "a.png", "--threads", "0"},
-                            {"render", "s.scn", "-o", "a.png", "--mode", "raster"},
                             {"render", "s.scn", "-o", "a.png", "-D", "x"},
                             {"render", "s.scn", "-o", "a.png", "--no-such-option"},
                             {"export", "maya", "s.scn", "-o", "a"},
