@@ -280,14 +280,9 @@ void MaterialTable::check_bump(const Thing& thing, const runtime::Phong<double>&
         }
         return;
     }
-    const ir::Function& height = scene_.functions[static_cast<std::size_t>(phong.bump)];
-    for (std::size_t i = 0; i < height.nodes.size(); ++i) {
-        const ir::Node& node = height.nodes[i];
-        if (node.kind == ir::Node::Kind::input && node.input >= ir::Input::n_x &&
-            node.input <= ir::Input::n_z) {
-            diagnostics_.report(lang::Diag::bump_of_normal, height.places[i]);
-            return;
-        }
+    // Inputs have no place of their own.
+    if (scene_.functions[static_cast<std::size_t>(phong.bump)].reads(ir::Input::n_x, ir::Input::n_z)) {
+        diagnostics_.report(lang::Diag::bump_of_normal, place_of(thing, "bump"));
     }
 }
 

@@ -197,10 +197,9 @@ std::string opening_of(const ir::Object& object, const ir::Scene& scene) {
     if (const auto* mesh = std::get_if<runtime::Mesh<double>>(&object.shape)) {
         const std::string opening = open_part(scene.meshes[mesh->mesh]);
         // To refraction it does not matter whether all triangles face inwards.
-        return opening.starts_with("is open") ? "the mesh " + opening : "";
+        return opening.starts_with("is open") ? opening : "";
     }
-    const std::string_view opening = open_part(object.shape);
-    return opening.empty() ? "" : fmt::format("it {}", opening);
+    return std::string(open_part(object.shape));
 }
 
 /// What bends rays is closed.
