@@ -23,7 +23,7 @@ struct SceneOptions {
     std::vector<std::string> definitions; ///< -D name=value
     std::vector<std::string> asset_paths;
     std::string camera;
-    std::optional<runtime::Method> method; ///< nothing: that of the scene's first render
+    std::optional<runtime::Method> method{}; ///< nothing: that of the scene's first render
     std::optional<std::int64_t> frame;     ///< of an animated scene; nothing: its first
     bool keep_meshes = true;               ///< in the user's cache
     bool tells_frame = true;               ///< of an animated scene, which one was taken
