@@ -33,6 +33,9 @@ std::optional<Budget> budget_for(const std::string& renderer, int width, int hei
 /// The same for a picture with surfaces that the renderer got as meshes refined to a fraction of a pixel.
 Budget with_refined_meshes(Budget budget, int width, int height, int samples_per_axis = 1);
 
+/// The same for a picture with bumps whose slopes the renderer takes by differences.
+Budget with_differenced_bumps(Budget budget, int width, int height);
+
 nlohmann::ordered_json to_json(const Budget& budget);
 
 enum class Verdict { passed, failed, skipped };

@@ -39,6 +39,7 @@ struct Outcome {
     Fidelity fidelity = Fidelity::exact;
     std::string how;
     double bound = 0;
+    bool is_differenced = false; ///< as LedgerEntry has it
 };
 
 /// Per-point functions as SDL functions, each declared when it is first used.

@@ -37,6 +37,14 @@ void include(InputRanges& all, const InputRanges& more) {
     }
 }
 
+bool bends_sharply(const ir::Function& height) {
+    return std::any_of(height.nodes.begin(), height.nodes.end(), [](const ir::Node& node) {
+        return node.kind == ir::Node::Kind::image ||
+               (node.kind == ir::Node::Kind::apply &&
+                (node.op == ir::Op::noise || node.op == ir::Op::random));
+    });
+}
+
 } // namespace
 
 PovMaterials::PovMaterials(const ir::Scene& scene, double scale, ExportFiles& files, Writer& functions,
@@ -151,10 +159,16 @@ std::string PovMaterials::normal(std::int32_t bump, std::uint32_t material,
     if (dropped) {
         outcome.how = "the surface stays smooth: " + outcome.how;
     } else {
+        const bool bends = bends_sharply(scene_.functions[static_cast<std::size_t>(bump)]);
         outcome.fidelity = Fidelity::approximated;
-        outcome.how = fmt::format("normals from differences over {}, bound of their rounding; {}",
-                                  number(delta), outcome.how);
-        outcome.bound = std::max(outcome.bound, bump_rounding * range / delta);
+        outcome.how =
+            fmt::format("normals from differences over {}, {}; {}", number(delta),
+                        bends ? "coarse where an image or noise bends within it, bound in radiance at "
+                                "such pixels"
+                              : "bound of their rounding",
+                        outcome.how);
+        outcome.bound = bends ? 1 : std::max(outcome.bound, bump_rounding * range / delta);
+        outcome.is_differenced = bends;
     }
     outcome.how =
         fmt::format("function `{}`: {}", scene_.functions[static_cast<std::size_t>(bump)].name, outcome.how);
@@ -181,6 +195,7 @@ void PovMaterials::note(std::uint32_t material, std::string_view feature, const 
         const ir::Material& m = scene_.materials[material];
         ledger_.push_back(
             {outcome.fidelity, std::string(feature), m.name, m.span, outcome.how, outcome.bound});
+        ledger_.back().is_differenced = outcome.is_differenced;
     }
 }
 

@@ -85,6 +85,9 @@ void judge(RendererReport& result, const Subject& subject, double exposure,
         result.budget =
             validation::with_refined_meshes(*result.budget, s.width, s.height, samples_per_axis(s));
     }
+    if (std::any_of(ledger.begin(), ledger.end(), [](const auto& entry) { return entry.is_differenced; })) {
+        result.budget = validation::with_differenced_bumps(*result.budget, s.width, s.height);
+    }
     validation::CompareOptions options;
     options.thresholds = validation::thresholds_for(*result.budget);
     result.metrics = validation::compare(subject.report.reference, result.image, options);

@@ -49,7 +49,7 @@ struct RasterScene : SceneBase<R_> {
     std::vector<Phong<R>> materials;
     std::vector<PointLight<R>> point_lights;
     std::vector<MeshData> meshes;
-    std::vector<Polyline<R>> polylines;
+    std::vector<LineSegment<R>> line_segments;
     Camera<R> camera;
     Rgb<R> ambient{R(0.3), R(0.3), R(0.3)}, background{R(0.1), R(0.2), R(0.3)};
 };
@@ -85,7 +85,8 @@ RasterScene<R> varied_scene() {
     Triangle<R> clear;
     clear.points = {Vec3<R>{-2, -1, 1}, {2, R(-0.5), 2}, {R(0.5), 2, 1}};
     scene.add(Bare<Triangle<R>>{clear, {2, {2, 2}}});
-    scene.polylines = {{{{-2, 0, 2}, {0, R(1.5), R(1.2)}, {2, 0, -3}}, {1, 1, 0}, 3, {3, {}}}};
+    scene.line_segments = {{{-2, 0, 2}, {0, R(1.5), R(1.2)}, {1, 1, 0}, 3},
+                           {{0, R(1.5), R(1.2)}, {2, 0, -3}, {1, 1, 0}, 3}};
     return scene;
 }
 
@@ -335,8 +336,10 @@ TEST(Raster, SurvivesWildVertices) {
                 p = {number(), number(), number()};
             }
             scene.add(Bare<Triangle<float>>{triangle, {i, {i % 2, 0}}});
-            scene.polylines.push_back(
-                {{triangle.points.begin(), triangle.points.end()}, {1, 1, 1}, float(i % 4), {600 + i, {}}});
+            for (std::size_t corner = 1; corner < 3; ++corner) {
+                scene.line_segments.push_back(
+                    {triangle.points[corner - 1], triangle.points[corner], {1, 1, 1}, float(i % 4)});
+            }
         }
         RenderRequest wanted = request(70, 50, shading);
         wanted.settings.raster.clip = shading != RasterShading::flat;

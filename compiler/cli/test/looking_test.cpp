@@ -307,7 +307,8 @@ struct Count {
 TEST_F(Explain, AddsUpToWhatIsDrawn) {
     std::vector<std::string> scenes;
     for (const auto& entry : std::filesystem::directory_iterator(SCC_SOURCE_DIR "/examples")) {
-        if (entry.path().extension() == ".scn") {
+        // Rays meet no lines.
+        if (entry.path().extension() == ".scn" && entry.path().stem() != "lines") {
             scenes.push_back(entry.path().string());
         }
     }
@@ -319,8 +320,8 @@ TEST_F(Explain, AddsUpToWhatIsDrawn) {
         for (const char* pixel : {"40,30", "31,35", "55,38"}) {
             const bool single = ++turn % 3 == 0;
             const Count told{
-                explain({scene, "--pixel", pixel, "--size", "80x60", "--samples", turn % 2 == 0 ? "1" : "4",
-                         "--precision", single ? "float" : "double"})};
+                explain({scene, "--mode", "ray", "--pixel", pixel, "--size", "80x60", "--samples",
+                         turn % 2 == 0 ? "1" : "4", "--precision", single ? "float" : "double"})};
             EXPECT_EQ(told.of("the renderer draws the same, to the bit"), 1U) << told.text;
             if (told.of(" more\n") == 0) {
                 EXPECT_EQ(told.of("  meets "), told.of("the nearest: this is seen")) << told.text;
@@ -384,7 +385,6 @@ TEST_F(Explain, SaysWhatItCannotExplain) {
         EXPECT_EQ(scc({"explain", "s.scn", "--pixel", pixel}).code, 2) << pixel;
     }
     EXPECT_EQ(scc({"explain", "s.scn", "--pixel", "1,1", "--sample", "1,0"}).code, 2);
-    EXPECT_EQ(scc({"explain", "s.scn", "--pixel", "1,1", "--json"}).code, 2);
     write("s.scn", "sphere { radius = -1 }\n");
     EXPECT_EQ(scc({"explain", "s.scn", "--matrices"}).code, 1);
     EXPECT_EQ(scc({"explain", "s.scn", "--needs"}).code, 1);

@@ -48,8 +48,8 @@ TEST_F(Raster, IsWhatTheFirstRenderOrTheCommandLineAsksFor) {
     write("s.scn", ball);
     EXPECT_LT(difference(drawn({"--mode", "raster", "--samples", "16"}),
                          drawn({"--mode", "ray", "--samples", "16"})),
-              0.05)
-        << "per pixel, and nothing casts shadows";
+              0.1)
+        << "lit per pixel, and nothing casts shadows; a sample at an outline may differ";
 }
 
 TEST_F(Raster, DrawsLinesThatRaysCannotMeet) {
