@@ -374,7 +374,8 @@ TEST_F(CommandLine, ComparesPictures) {
 }
 
 const std::string small_nff = "v\nfrom 0 -5 2\nat 0 0 0\nup 0 0 1\nangle 40\nhither 1\nresolution 32 24\n"
-                              "l 3 -4 5\nf 1 0.5 0.2 0.8 0.2 20 0.5 1.5\ns 0 0 0 1\nc 2 0 0 0.5 2 0 1 0\n";
+                              "l 3 -4 5\nf 1 0.5 0.2 0.8 0.2 20 0.5 1.5\ns 0 0 0 1\n"
+                              "f 1 0.5 0.2 0.8 0.2 20 0 1\nc 2 0 0 0.5 2 0 1 0\n";
 
 TEST_F(CommandLine, ImportsAndRenders) {
     write("a.nff", small_nff);
