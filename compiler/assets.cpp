@@ -17,9 +17,7 @@ fs::path or_here(const fs::path& folder) {
     return folder.empty() ? fs::path(".") : folder;
 }
 
-} // namespace
-
-Asset find_asset(const AssetPolicy& policy, const fs::path& folder, const std::string& name) {
+Asset search(const AssetPolicy& policy, const fs::path& folder, const std::string& name) {
     std::error_code error;
     std::vector<fs::path> allowed_folders{or_here(policy.scene_folder)};
     allowed_folders.insert(allowed_folders.end(), policy.asset_paths.begin(), policy.asset_paths.end());
@@ -47,6 +45,16 @@ Asset find_asset(const AssetPolicy& policy, const fs::path& folder, const std::s
         return {AssetStatus::found, name};
     }
     return result;
+}
+
+} // namespace
+
+Asset find_asset(const AssetPolicy& policy, const fs::path& folder, const std::string& name) {
+    Asset asset = search(policy, folder, name);
+    if (policy.found && asset.status == AssetStatus::found) {
+        policy.found->insert(asset.path.lexically_normal());
+    }
+    return asset;
 }
 
 } // namespace scc::compiler

@@ -1,11 +1,15 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
 namespace scc::compiler {
+
+/// Where files that are found are written down, as they are opened; null: nowhere.
+using FoundFiles = std::shared_ptr<std::set<std::filesystem::path>>;
 
 /// Where a scene and its imports may read files from: the scene's folder and those of --asset-path. A name
 /// that the command line itself gave (`-D model=...`) may also be a path from the working directory, wherever
@@ -14,6 +18,7 @@ struct AssetPolicy {
     std::filesystem::path scene_folder;
     std::vector<std::filesystem::path> asset_paths;
     std::set<std::string> named_by_user; ///< values of -D
+    FoundFiles found{};
 };
 
 enum class AssetStatus { found, missing, outside };

@@ -56,7 +56,7 @@ private:
             derived = applied(node);
             break;
         case ir::Node::Kind::image:
-            throw std::logic_error("the field of an implicit surface reads an image"); // refused when lowered
+            throw std::logic_error("the texels of an image have no formula"); // refused by with_gradient
         }
         nodes_.push_back(derived);
     }
@@ -174,14 +174,62 @@ private:
     std::vector<Derived> nodes_;
 };
 
+/// Whether it varies in steps only.
+bool is_step(Op op) {
+    switch (op) {
+    case Op::floor:
+    case Op::ceil:
+    case Op::eq:
+    case Op::ne:
+    case Op::lt:
+    case Op::le:
+    case Op::gt:
+    case Op::ge:
+    case Op::logical_and:
+    case Op::logical_or:
+    case Op::logical_not:
+    case Op::random:
+        return true;
+    default:
+        return false;
+    }
+}
+
 } // namespace
 
 std::optional<ir::Function> with_gradient(const ir::Function& function) {
-    const bool has_noise =
+    const bool has_unknown =
         std::any_of(function.nodes.begin(), function.nodes.end(), [](const ir::Node& node) {
-            return node.kind == ir::Node::Kind::apply && node.op == Op::noise;
+            return node.kind == ir::Node::Kind::image ||
+                   (node.kind == ir::Node::Kind::apply && node.op == Op::noise);
         });
-    return has_noise ? std::nullopt : std::optional(Differentiator(function).run());
+    return has_unknown ? std::nullopt : std::optional(Differentiator(function).run());
+}
+
+bool has_slope(const ir::Function& function) {
+    std::vector<bool> slopes;
+    for (const ir::Node& node : function.nodes) {
+        const auto of = [&](std::size_t i) { return slopes[node.operands[i]]; };
+        bool has = false;
+        for (std::size_t i = 0; i < arity(node); ++i) {
+            has = has || of(i);
+        }
+        switch (node.kind) {
+        case ir::Node::Kind::constant:
+            break;
+        case ir::Node::Kind::input:
+            has = true;
+            break;
+        case ir::Node::Kind::image:
+            has = has && function.images[node.image]->data.filter != runtime::Filter::nearest;
+            break;
+        case ir::Node::Kind::apply:
+            has = has && !is_step(node.op) && (node.op != Op::select || of(1) || of(2));
+            break;
+        }
+        slopes.push_back(has);
+    }
+    return slopes[function.results[0]];
 }
 
 } // namespace scc::compiler

@@ -30,6 +30,10 @@ public:
     std::uint32_t look_up(const std::shared_ptr<const ir::Image>& image, std::uint8_t channel,
                           std::uint32_t u, std::uint32_t v);
 
+    /// Records all operations of a function, of whose inputs input(which) are the nodes; returns its nodes.
+    template <class Input>
+    std::vector<std::uint32_t> include(const ir::Function& function, Input&& input);
+
     void locate(lang::Span span) override { place_ = span; }
 
     /// The function with these results; nodes that no result needs are left out.
@@ -49,5 +53,33 @@ private:
     lang::Span place_{};
     std::map<Key, std::uint32_t> known_;
 };
+
+template <class Input>
+std::vector<std::uint32_t> FunctionBuilder::include(const ir::Function& function, Input&& input) {
+    std::vector<std::uint32_t> moved;
+    for (std::size_t i = 0; i < function.nodes.size(); ++i) {
+        const ir::Node& node = function.nodes[i];
+        locate(function.places[i]);
+        std::vector<std::uint32_t> operands;
+        for (std::size_t k = 0; k < arity(node); ++k) {
+            operands.push_back(moved[node.operands[k]]);
+        }
+        switch (node.kind) {
+        case ir::Node::Kind::constant:
+            moved.push_back(constant(node.constant));
+            break;
+        case ir::Node::Kind::input:
+            moved.push_back(input(node.input));
+            break;
+        case ir::Node::Kind::apply:
+            moved.push_back(apply(row(node.op).name, operands));
+            break;
+        case ir::Node::Kind::image:
+            moved.push_back(look_up(function.images[node.image], node.channel, operands[0], operands[1]));
+            break;
+        }
+    }
+    return moved;
+}
 
 } // namespace scc::compiler

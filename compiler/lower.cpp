@@ -111,6 +111,8 @@ private:
     bool add_member(const Thing& thing, const Operand& here);
     bool add_contained(const Thing& thing, const Operand& here);
     std::vector<Vec3<double>> points_of_line(const Thing& thing);
+    void add_thin_line(const Thing& thing, std::vector<Vec3<double>> points,
+                       const Affine<double>& world_from_parent);
     void add_line(const Thing& thing, const std::string& path, const Affine<double>& world_from_parent,
                   const Thing* material);
     bool add_line_operand(const Thing& thing, const Operand& here);
@@ -726,10 +728,6 @@ void for_each_capsule(const std::vector<Vec3<double>>& points, double radius, bo
 
 /// Without repetitions; none where the line cannot be drawn, which is reported.
 std::vector<Vec3<double>> ObjectLowering::points_of_line(const Thing& thing) {
-    if (thing.find("radius") == nullptr) {
-        diagnostics_.report(Diag::thin_line, thing.span);
-        return {};
-    }
     std::vector<Vec3<double>> points;
     for (const lang::Value& value : *std::get<lang::ListPtr>(thing.get("points")->v)) {
         if (const Vec3<double> point = to_vec3(value); points.empty() || !(points.back() == point)) {
@@ -761,10 +759,34 @@ const Thing* ObjectLowering::line_material(const Thing& thing, const Thing* inhe
     return made_materials_.back().get();
 }
 
+/// A line without a radius. It is not lit.
+void ObjectLowering::add_thin_line(const Thing& thing, std::vector<Vec3<double>> points,
+                                   const Affine<double>& world_from_parent) {
+    ir::Polyline line{
+        .points = std::move(points), .width = to_number(*thing.get("width")), .span = thing.span};
+    if (const lang::FieldValue* color = thing.find("color"); color != nullptr) {
+        line.color = materials_.shown(color->value);
+    }
+    for (Vec3<double>& point : line.points) {
+        point = transform_point(world_from_parent, point);
+    }
+    ++count_;
+    scene_.polylines.push_back(std::move(line));
+}
+
 void ObjectLowering::add_line(const Thing& thing, const std::string& path,
                               const Affine<double>& world_from_parent, const Thing* material) {
-    const std::vector<Vec3<double>> points = points_of_line(thing);
+    const bool is_thin = thing.find("radius") == nullptr;
+    if (is_thin && scene_.settings.method != runtime::Method::raster) {
+        diagnostics_.report(Diag::thin_line, thing.span);
+        return;
+    }
+    std::vector<Vec3<double>> points = points_of_line(thing);
     if (points.empty()) {
+        return;
+    }
+    if (is_thin) {
+        add_thin_line(thing, std::move(points), world_from_parent);
         return;
     }
     const runtime::Sides sides = materials_.sides(line_material(thing, material), path);
@@ -776,6 +798,10 @@ void ObjectLowering::add_line(const Thing& thing, const std::string& path,
 }
 
 bool ObjectLowering::add_line_operand(const Thing& thing, const Operand& here) {
+    if (thing.find("radius") == nullptr) {
+        diagnostics_.report(Diag::thin_line, thing.span);
+        return false;
+    }
     const std::vector<Vec3<double>> points = points_of_line(thing);
     if (points.empty()) {
         return false;
@@ -901,12 +927,37 @@ std::string ObjectLowering::unique_path(const std::string& wanted) {
 
 } // namespace
 
+namespace {
+
+/// Takes out what raster mode has not: shadows, mirrors, refraction. What is transparent can lie before any
+/// number of others that are.
+void leave_surfaces_alone(ir::Scene& scene, lang::Diagnostics& diagnostics) {
+    scene.settings.shadows = false;
+    scene.settings.depth = runtime::most_bounces;
+    const auto leave_alone = [](runtime::Phong<double>& phong) {
+        phong.reflect = {};
+        phong.ior = {1};
+        phong.fresnel = false;
+        phong.bump = runtime::no_function;
+    };
+    for (ir::Material& material : scene.materials) {
+        if (material.phong.bump != runtime::no_function) {
+            diagnostics.report(Diag::raster_leaves_out, material.span, "bumps",
+                               "the surface is lit as if smooth");
+        }
+        leave_alone(material.phong);
+        std::for_each(material.bands.begin(), material.bands.end(), leave_alone);
+    }
+}
+
+} // namespace
+
 ir::Scene lower(const lang::Module& module, const LowerOptions& options, lang::Diagnostics& diagnostics) {
     ir::Scene scene;
     scene.name = options.name;
     const lang::Spectrum& illuminant = illuminant_of(module);
     const Rendition rec709 = Rendition::rec709(illuminant);
-    lower_settings(module, rec709, scene, diagnostics);
+    lower_settings(module, options, rec709, scene, diagnostics);
     MaterialTable materials(scene, rec709, options.images, diagnostics);
     // Holds things that the materials refer to until the end.
     ObjectLowering objects(module, options, materials, scene, diagnostics);
@@ -917,6 +968,13 @@ ir::Scene lower(const lang::Module& module, const LowerOptions& options, lang::D
         const std::vector<Rendition> bands = Rendition::bands(illuminant);
         materials.add_bands(bands);
         add_view_bands(module, bands, scene);
+        for (const ir::Polyline& line : scene.polylines) {
+            diagnostics.report(Diag::unsupported_setting, line.span,
+                               "a polyline without a `radius` in a scene with spectra");
+        }
+    }
+    if (scene.settings.method == runtime::Method::raster) {
+        leave_surfaces_alone(scene, diagnostics);
     }
     return scene;
 }

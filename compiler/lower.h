@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 namespace scc::compiler {
@@ -17,9 +18,10 @@ struct LowerOptions {
     AssetPolicy assets;
     /// Of imported files, whose assets lie beside them.
     std::map<lang::FileId, std::filesystem::path> import_folders{};
-    std::string camera;           ///< --camera; empty: the scene's choice
-    ImageTable* images = nullptr; ///< null: there are none
-    bool keep_meshes = false;     ///< take them from the user's cache and leave them there
+    std::string camera;                      ///< --camera; empty: the scene's choice
+    std::optional<runtime::Method> method{}; ///< --mode; nothing: that of the scene's first render
+    ImageTable* images = nullptr;            ///< null: there are none
+    bool keep_meshes = false;                ///< take them from the user's cache and leave them there
 };
 
 /// Makes the Scene IR from a checked module: groups are taken apart into objects with composed transforms,

@@ -1,5 +1,6 @@
 #include "compiler/lower_material.h"
 
+#include "compiler/derivative.h"
 #include "compiler/schema.h"
 #include "compiler/values.h"
 
@@ -47,6 +48,7 @@ std::uint32_t MaterialTable::index(const Thing* given, const std::string& owner)
         warn_if_bright(thing, "transmit", material.phong.transmit);
     }
     warn_of_idle_ior(thing, material.phong);
+    check_bump(thing, material.phong);
 
     const auto id = static_cast<std::uint32_t>(scene_.materials.size());
     scene_.materials.push_back(std::move(material));
@@ -75,6 +77,7 @@ runtime::Phong<double> MaterialTable::lowered_phong(const Thing& thing, const st
         color(thing, "transmit", owner, {&by, ColorRole::surface, Covering::leaves_open, opacity});
     phong.shininess = scalar(thing, "shininess", owner);
     phong.ior = to_number(*thing.get("ior"));
+    phong.bump = bump(thing, owner);
     return phong;
 }
 
@@ -159,6 +162,18 @@ Varying<double> MaterialTable::scalar(const Thing& phong, std::string_view field
         return {constants.size() == 1 ? constants[0] : 0, id};
     }
     return {to_number(value)};
+}
+
+/// no_function where it tilts no normal.
+std::int32_t MaterialTable::bump(const Thing& phong, const std::string& owner) {
+    if (phong.find("bump") == nullptr) {
+        return runtime::no_function;
+    }
+    const auto& closure = std::get<lang::ClosurePtr>(phong.get("bump")->v);
+    const std::int32_t id = function(closure, fmt::format("{} bump", owner), {&rec709_}).first;
+    return id != runtime::no_function && has_slope(scene_.functions[static_cast<std::size_t>(id)])
+               ? id
+               : runtime::no_function;
 }
 
 MaterialTable::Traced& MaterialTable::traced(const lang::ClosurePtr& closure) {
@@ -255,6 +270,19 @@ void MaterialTable::warn_of_idle_ior(const Thing& thing, const runtime::Phong<do
         phong.transmit.function == runtime::no_function && phong.transmit.value == Rgb<double>{};
     if (thing.find("ior") != nullptr && opaque && phong.ior != 1) {
         diagnostics_.report(lang::Diag::idle_ior, place_of(thing, "ior"));
+    }
+}
+
+void MaterialTable::check_bump(const Thing& thing, const runtime::Phong<double>& phong) {
+    if (phong.bump == runtime::no_function) {
+        if (thing.find("bump") != nullptr) {
+            diagnostics_.report(lang::Diag::idle_bump, place_of(thing, "bump"));
+        }
+        return;
+    }
+    // Inputs have no place of their own.
+    if (scene_.functions[static_cast<std::size_t>(phong.bump)].reads(ir::Input::n_x, ir::Input::n_z)) {
+        diagnostics_.report(lang::Diag::bump_of_normal, place_of(thing, "bump"));
     }
 }
 

@@ -35,6 +35,11 @@ public:
     std::vector<runtime::Sides> sides(const lang::ThingRows& rows, const lang::ThingPtr& material,
                                       const Owner& owner);
 
+    /// A colour that is seen as it is.
+    runtime::Rgb<double> shown(const lang::Value& color) const {
+        return rec709_.rendered(color, ColorRole::light);
+    }
+
     /// Whether some material has a spectrum.
     bool has_spectra() const { return has_spectra_; }
     /// Gives every material of the scene its colours in these too.
@@ -91,6 +96,8 @@ private:
     lang::Scalar opacity_in(Traced& traced, const Opacity& opacity);
     std::int32_t add_function(ir::Function function, const std::string& name, const Treatment& treatment);
     Traced& traced(const lang::ClosurePtr& closure);
+    std::int32_t bump(const lang::Thing& phong, const std::string& owner);
+    void check_bump(const lang::Thing& thing, const runtime::Phong<double>& phong);
     void warn_of_idle_ior(const lang::Thing& thing, const runtime::Phong<double>& phong);
     void warn_if_bright(const lang::Thing& phong, std::string_view field,
                         const runtime::Varying<runtime::Rgb<double>>& value);

@@ -48,20 +48,40 @@ const Thing* method_of(const Thing& render) {
     return method != nullptr ? to_thing(*method).get() : nullptr;
 }
 
-// The first render that ray mode can draw; renders for raster mode are said to be left out.
-const Thing* ray_render(const lang::Module& module, lang::Diagnostics* diagnostics) {
-    const Thing* chosen = nullptr;
-    for (const Thing* render : settings_of(module, "render")) {
-        const Thing* method = method_of(*render);
-        if (method != nullptr && method->constructor->name == "raster") {
-            if (diagnostics != nullptr) {
-                diagnostics->report(Diag::raster_skipped, place_of(*render, "method"));
-            }
-        } else if (chosen == nullptr) {
-            chosen = render;
+runtime::Method method_kind(const Thing* method) {
+    return method != nullptr && method->constructor->name == "raster" ? runtime::Method::raster
+                                                                      : runtime::Method::ray;
+}
+
+/// What is drawn and how. Without a render by the method that is asked for, the first one tells the rest.
+struct ChosenRender {
+    runtime::Method method = runtime::Method::ray;
+    const Thing* render = nullptr;   ///< null: there is none
+    const Thing* settings = nullptr; ///< of the method; null: its defaults
+};
+ChosenRender choose_render(const lang::Module& module, std::optional<runtime::Method> wanted) {
+    const std::vector<const Thing*> renders = settings_of(module, "render");
+    if (renders.empty()) {
+        return {wanted.value_or(runtime::Method::ray), nullptr, nullptr};
+    }
+    const runtime::Method method = wanted.value_or(method_kind(method_of(*renders.front())));
+    for (const Thing* render : renders) {
+        if (method_kind(method_of(*render)) == method) {
+            return {method, render, method_of(*render)};
         }
     }
-    return chosen;
+    return {method, renders.front(), nullptr};
+}
+
+/// Those that another method draws; a person who asked for a method knows.
+void report_other_renders(const lang::Module& module, runtime::Method drawn, lang::Diagnostics& diagnostics) {
+    for (const Thing* render : settings_of(module, "render")) {
+        if (const runtime::Method method = method_kind(method_of(*render)); method != drawn) {
+            const bool has_method = render->find("method") != nullptr;
+            diagnostics.report(Diag::render_left_out, has_method ? place_of(*render, "method") : render->span,
+                               word(runtime::method_names, method));
+        }
+    }
 }
 
 // ---- camera
@@ -72,7 +92,7 @@ const Thing* choose_camera(const lang::Module& module, const LowerOptions& optio
     const std::vector<const Thing*> cameras = things_of(module, TypeKind::camera);
     std::string wanted = options.camera;
     lang::Span place;
-    if (const Thing* render = ray_render(module, nullptr);
+    if (const Thing* render = choose_render(module, options.method).render;
         wanted.empty() && render != nullptr && render->find("camera") != nullptr) {
         wanted = to_text(*render->get("camera"));
         place = place_of(*render, "camera");
@@ -123,8 +143,8 @@ void frame_everything(ir::Scene& scene, lang::Diagnostics& diagnostics) {
     const double distance = radius / std::sin(std::atan(narrow * camera.half_height));
     camera.eye = center + distance * normalize(Vec3<double>{1, 0.8, 2});
     orient(camera, center, {0, 1, 0});
-    scene.near = std::max(distance - radius, 1e-3 * distance);
-    scene.far = distance + radius;
+    scene.camera.near = std::max(distance - radius, 1e-3 * distance);
+    scene.camera.far = distance + radius;
     diagnostics.report(
         Diag::no_camera, lang::Span{},
         fmt::format(
@@ -133,12 +153,12 @@ void frame_everything(ir::Scene& scene, lang::Diagnostics& diagnostics) {
 }
 
 void lower_window(const Thing& camera, ir::Scene& scene, lang::Diagnostics& diagnostics) {
-    scene.near = to_number(*camera.get("near"));
-    scene.far = to_number(*camera.get("far"));
-    if (scene.near >= scene.far) {
-        diagnostics.report(
-            Diag::impossible_camera, place_of(camera, "near"),
-            fmt::format("near is {} and far is {}; near is less than far", scene.near, scene.far));
+    scene.camera.near = to_number(*camera.get("near"));
+    scene.camera.far = to_number(*camera.get("far"));
+    if (scene.camera.near >= scene.camera.far) {
+        diagnostics.report(Diag::impossible_camera, place_of(camera, "near"),
+                           fmt::format("near is {} and far is {}; near is less than far", scene.camera.near,
+                                       scene.camera.far));
     }
     const auto& shift = std::get<lang::Vec2Value>(camera.get("shift")->v).v;
     scene.camera.shift_x = shift[0].value;
@@ -261,31 +281,64 @@ void lower_sampling(const Thing& ray, runtime::RenderSettings& settings, lang::D
     }
 }
 
+void lower_raster(const Thing& raster, runtime::RenderSettings& settings) {
+    settings.samples = static_cast<int>(to_number(*raster.get("samples")));
+    settings.raster.shading = runtime::choice_of<runtime::RasterShading>(runtime::raster_shading_names,
+                                                                         to_text(*raster.get("shading")));
+    settings.raster.cull =
+        runtime::choice_of<runtime::Cull>(runtime::cull_names, to_text(*raster.get("cull")));
+    settings.raster.clip = to_bool(*raster.get("clip"));
+    settings.raster.tessellation = to_number(*raster.get("tessellation"));
+}
+
+/// What a raster picture cannot be seen through.
+void check_raster_camera(const Thing& thing, const ir::Scene& scene, lang::Diagnostics& diagnostics) {
+    if (scene.settings.method != runtime::Method::raster) {
+        return;
+    }
+    if (scene.camera.projection == runtime::Projection::spherical) {
+        diagnostics.report(Diag::raster_needs_plane, thing.span);
+    } else if (scene.camera.lens_radius > 0) {
+        diagnostics.report(Diag::raster_leaves_out, place_of(thing, "aperture"), "lens",
+                           "everything is drawn sharp");
+    }
+}
+
 } // namespace
 
-void lower_settings(const lang::Module& module, const Rendition& rec709, ir::Scene& scene,
-                    lang::Diagnostics& diagnostics) {
+void lower_settings(const lang::Module& module, const LowerOptions& options, const Rendition& rec709,
+                    ir::Scene& scene, lang::Diagnostics& diagnostics) {
     if (const Thing* world = world_of(module)) {
         scene.ambient = rec709.rendered(*world->get("ambient"), ColorRole::light);
         scene.background = rec709.rendered(*world->get("background"), ColorRole::light);
     }
-    const Thing* render = ray_render(module, &diagnostics);
-    if (render == nullptr) {
+    const ChosenRender chosen = choose_render(module, options.method);
+    scene.settings.method = chosen.method;
+    if (!options.method) {
+        report_other_renders(module, chosen.method, diagnostics);
+    }
+    if (chosen.render == nullptr) {
         return;
     }
-    if (const lang::Value* file = render->get("file"); file != nullptr) {
+    const Thing& render = *chosen.render;
+    if (const lang::Value* file = render.get("file"); file != nullptr) {
         scene.file = to_text(*file);
     }
-    const auto& size = std::get<lang::Vec2Value>(render->get("size")->v).v;
+    const auto& size = std::get<lang::Vec2Value>(render.get("size")->v).v;
     scene.settings.width = static_cast<int>(size[0].value);
     scene.settings.height = static_cast<int>(size[1].value);
-    scene.settings.point = runtime::choice_of<runtime::PixelPoint>(runtime::pixel_point_names,
-                                                                   to_text(*render->get("sampling")));
-    if (const Thing* method = method_of(*render); method != nullptr) {
-        scene.settings.depth = static_cast<int>(to_number(*method->get("depth")));
-        scene.settings.shadows = to_bool(*method->get("shadows"));
-        scene.sampling_span = method->span;
-        lower_sampling(*method, scene.settings, diagnostics);
+    scene.settings.point =
+        runtime::choice_of<runtime::PixelPoint>(runtime::pixel_point_names, to_text(*render.get("sampling")));
+    if (chosen.settings == nullptr) {
+        return;
+    }
+    scene.method_span = chosen.settings->span;
+    if (chosen.method == runtime::Method::raster) {
+        lower_raster(*chosen.settings, scene.settings);
+    } else {
+        scene.settings.depth = static_cast<int>(to_number(*chosen.settings->get("depth")));
+        scene.settings.shadows = to_bool(*chosen.settings->get("shadows"));
+        lower_sampling(*chosen.settings, scene.settings, diagnostics);
     }
 }
 
@@ -309,6 +362,7 @@ void lower_camera(const lang::Module& module, const LowerOptions& options, ir::S
         camera.projection = runtime::Projection::spherical;
         camera.half_width = to_radians(*thing->get("fov_x")) / 2;
         camera.half_height = to_radians(*thing->get("fov_y")) / 2;
+        check_raster_camera(*thing, scene, diagnostics);
         return;
     }
     lower_window(*thing, scene, diagnostics);
@@ -322,6 +376,7 @@ void lower_camera(const lang::Module& module, const LowerOptions& options, ir::S
         camera.projection = runtime::Projection::orthographic;
         camera.half_height = to_number(*thing->get("height")) / 2;
     }
+    check_raster_camera(*thing, scene, diagnostics);
 }
 
 void lower_lights(const lang::Module& module, const Rendition& rec709, ir::Scene& scene,

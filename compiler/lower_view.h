@@ -8,10 +8,10 @@
 
 namespace scc::compiler {
 
-/// Ambient light and background from the last `world`; size, depth, samples and shadows from the first
-/// `render` that ray mode can draw.
-void lower_settings(const lang::Module& module, const Rendition& rec709, ir::Scene& scene,
-                    lang::Diagnostics& diagnostics);
+/// Ambient light and background from the last `world`; the rest from the first `render` of the method that is
+/// asked for, if there is one, else from the first of all.
+void lower_settings(const lang::Module& module, const LowerOptions& options, const Rendition& rec709,
+                    ir::Scene& scene, lang::Diagnostics& diagnostics);
 
 /// The camera that the command line or the render names, else the first; a scene without one gets a camera
 /// that frames all bounded shapes. Needs the objects.

@@ -70,8 +70,10 @@ std::vector<lang::Definition> parse_definitions(const std::vector<std::string>& 
     return definitions;
 }
 
-AssetPolicy asset_policy(const SceneOptions& options, const std::vector<lang::Definition>& definitions) {
+AssetPolicy asset_policy(const SceneOptions& options, const std::vector<lang::Definition>& definitions,
+                         FoundFiles found) {
     AssetPolicy policy;
+    policy.found = std::move(found);
     policy.scene_folder = fs::path(options.file).parent_path();
     policy.asset_paths.assign(options.asset_paths.begin(), options.asset_paths.end());
     for (const lang::Definition& definition : definitions) {
@@ -85,8 +87,9 @@ LowerOptions lower_options(const SceneOptions& options, const std::vector<lang::
     LowerOptions result;
     result.name = fs::path(options.file).stem().string();
     result.camera = options.camera;
+    result.method = options.method;
     result.keep_meshes = options.keep_meshes;
-    result.assets = asset_policy(options, definitions);
+    result.assets = asset_policy(options, definitions, loaded.assets);
     for (const lang::FileId file : loaded.module.imports) {
         result.import_folders[file] = fs::path(loaded.sources.file(file).path()).parent_path();
     }
@@ -141,11 +144,11 @@ void timed(Loaded& loaded, const char* stage, Run run) {
 
 } // namespace
 
-std::unique_ptr<lang::Importer> make_importer(const SceneOptions& options) {
+std::unique_ptr<lang::Importer> make_importer(const SceneOptions& options, FoundFiles found) {
     if (options.only_texts) {
         return std::make_unique<TextImporter>(*options.texts);
     }
-    return std::make_unique<FileImporter>(asset_policy(options, {}));
+    return std::make_unique<FileImporter>(asset_policy(options, {}, std::move(found)));
 }
 
 Loaded load(const SceneOptions& options, Stage last) {
@@ -166,9 +169,9 @@ Loaded load(const SceneOptions& options, Stage last) {
     if (last < Stage::module) {
         return loaded;
     }
-    ImageTable images(asset_policy(options, definitions), loaded.sources, loaded.diagnostics);
+    ImageTable images(asset_policy(options, definitions, loaded.assets), loaded.sources, loaded.diagnostics);
     timed(loaded, "check", [&] {
-        const std::unique_ptr<lang::Importer> importer = make_importer(options);
+        const std::unique_ptr<lang::Importer> importer = make_importer(options, loaded.assets);
         loaded.module = lang::check(loaded.tree, scene_schema(), definitions, loaded.sources,
                                     loaded.diagnostics, {}, importer.get(), options.frame, &images);
     });

@@ -6,9 +6,11 @@
 #include "lang/diagnostic.h"
 #include "lang/lexer.h"
 
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,9 +23,10 @@ struct SceneOptions {
     std::vector<std::string> definitions; ///< -D name=value
     std::vector<std::string> asset_paths;
     std::string camera;
-    std::optional<std::int64_t> frame; ///< of an animated scene; nothing: its first
-    bool keep_meshes = true;           ///< in the user's cache
-    bool tells_frame = true;           ///< of an animated scene, which one was taken
+    std::optional<runtime::Method> method{}; ///< nothing: that of the scene's first render
+    std::optional<std::int64_t> frame;     ///< of an animated scene; nothing: its first
+    bool keep_meshes = true;               ///< in the user's cache
+    bool tells_frame = true;               ///< of an animated scene, which one was taken
     /// Texts that stand for the content of files; null: none.
     const std::map<std::string, std::string>* texts = nullptr;
     bool only_texts = false; ///< scene files are not read: those are all
@@ -38,6 +41,8 @@ struct Loaded {
     lang::Module module;
     ir::Scene scene;
     std::vector<std::pair<std::string, double>> times_ms;
+    /// Imports, meshes and images that were found, but not the scene's own file.
+    FoundFiles assets = std::make_shared<std::set<std::filesystem::path>>();
 };
 
 /// `lowered`: a scene that the passes have not run over.
@@ -52,7 +57,7 @@ std::string read_text_file(const std::string& path);
 Loaded load(const SceneOptions& options, Stage last);
 
 /// Where the files come from that the scene imports.
-std::unique_ptr<lang::Importer> make_importer(const SceneOptions& options);
+std::unique_ptr<lang::Importer> make_importer(const SceneOptions& options, FoundFiles found = {});
 
 /// Prints all diagnostics to stderr, what the scene printed, and how many errors there were. True if there
 /// were none.

@@ -15,6 +15,7 @@ ProgramScene program_scene(const Loaded& loaded, const SceneOptions& options) {
                        .texts = {},
                        .definitions = options.definitions,
                        .camera = options.camera,
+                       .method = loaded.scene.settings.method,
                        .frame = {}};
     if (loaded.module.frames) {
         scene.frame = loaded.module.frames->chosen;
@@ -33,6 +34,7 @@ std::string pack(const ProgramScene& scene) {
     const auto add_count = [&](std::size_t count) { values.add(static_cast<std::uint64_t>(count)); };
     values.add_text(scene.file);
     values.add_text(scene.camera);
+    values.add(scene.method);
     add_count(scene.frame ? 1 : 0);
     values.add(scene.frame.value_or(0));
     add_count(scene.texts.size());
@@ -57,6 +59,7 @@ ProgramScene unpack(std::string_view packed) {
     ProgramScene scene;
     scene.file = values.read_text();
     scene.camera = values.read_text();
+    values.read(scene.method);
     const bool has_frame = read_count() != 0;
     std::int64_t frame = 0;
     values.read(frame);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "compiler/backends/cpp.h"
+#include "runtime/render_settings.h"
 
 #include <cstdint>
 #include <map>
@@ -16,11 +17,12 @@ struct SceneOptions;
 
 /// What a program with parameters keeps of its scene, to evaluate it again.
 struct ProgramScene {
-    std::string file;                         ///< the scene's, one of `texts`
-    std::map<std::string, std::string> texts; ///< by path, relative to the scene's folder
-    std::vector<std::string> definitions;     ///< those that it was built with
-    std::string camera;                       ///< as --camera
-    std::optional<std::int64_t> frame;        ///< of an animated scene, the one that it was built for
+    std::string file;                              ///< the scene's, one of `texts`
+    std::map<std::string, std::string> texts;      ///< by path, relative to the scene's folder
+    std::vector<std::string> definitions;          ///< those that it was built with
+    std::string camera;                            ///< as --camera
+    runtime::Method method = runtime::Method::ray; ///< that it was built for
+    std::optional<std::int64_t> frame;             ///< of an animated scene, the one that it was built for
 };
 
 ProgramScene program_scene(const Loaded& loaded, const SceneOptions& options);

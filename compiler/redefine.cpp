@@ -13,6 +13,7 @@ std::string redefine(const host::Redefinition& wanted) {
                          .definitions = kept.definitions,
                          .asset_paths = wanted.asset_paths,
                          .camera = kept.camera,
+                         .method = kept.method,
                          .frame = kept.frame,
                          .texts = &kept.texts,
                          .only_texts = true};

@@ -271,7 +271,8 @@ const std::map<std::string_view, std::string_view>& examples() {
          "sphere { material = phong { diffuse = fn(s: surface) = rgb(0.5 + 0.4 * sin(9 * s.p.x), 0.2, "
          "0.2) } }\n"
          "disc { material = phong { diffuse = rgb(0.1, 0.6, 0.1), opacity = 0.5 } }\n"
-         "box { material = phong { diffuse = rgb(0, 0, 0), transmit = rgb(0.9, 0.6, 0.6), ior = 1.5 } }"},
+         "box { material = phong { diffuse = rgb(0, 0, 0), transmit = rgb(0.9, 0.6, 0.6), ior = 1.5 } }\n"
+         "torus { material = phong { bump = fn(s: surface) = 0.02 * noise(s.p * 20) } }"},
         {"glass", "sphere { material = glass { ior = 1.33, tint = rgb(0.9, 0.95, 1) } }"},
         {"two_sided", "let mirror = phong { diffuse = rgb(0.1, 0.1, 0.1), reflect = rgb(0.8, 0.8, 0.8) }\n"
                       "disc { material = two_sided { front = mirror, back = phong { } } }"},

@@ -1,6 +1,6 @@
 #include "compiler/resolve_uv.h"
 
-#include "compiler/function_builder.h"
+#include "compiler/function_term.h"
 #include "compiler/ir/objects.h"
 
 #include <fmt/core.h>
@@ -19,61 +19,6 @@ namespace {
 
 using runtime::Vec2;
 using runtime::Vec3;
-
-/// A value of the function that is being built.
-struct Term {
-    FunctionBuilder* builder;
-    std::uint32_t node;
-
-    Term of(std::string_view op, const std::vector<std::uint32_t>& operands) const {
-        return {builder, builder->apply(op, operands)};
-    }
-    Term constant(double value) const { return {builder, builder->constant(value)}; }
-
-    friend Term operator+(const Term& a, const Term& b) { return a.of("add", {a.node, b.node}); }
-    friend Term operator-(const Term& a, const Term& b) { return a.of("sub", {a.node, b.node}); }
-    friend Term operator*(const Term& a, const Term& b) { return a.of("mul", {a.node, b.node}); }
-    friend Term operator+(const Term& a, double b) { return b == 0 ? a : a + a.constant(b); }
-    friend Term operator-(const Term& a, double b) { return a + -b; }
-    friend Term operator*(const Term& a, double b) { return b == 1 ? a : a * a.constant(b); }
-    friend Term operator<=(const Term& a, const Term& b) { return a.of("le", {a.node, b.node}); }
-};
-Term absolute(const Term& a) {
-    return a.of("abs", {a.node});
-}
-Term negative(const Term& a) {
-    return a.of("neg", {a.node});
-}
-Term smaller(const Term& a, const Term& b) {
-    return a.of("min", {a.node, b.node});
-}
-Term root(const Term& a) {
-    return a.of("sqrt", {a.node});
-}
-Term angle(const Term& y, const Term& x) {
-    return y.of("atan2", {y.node, x.node});
-}
-Term choose(const Term& truth, const Term& a, const Term& b) {
-    return truth.of("select", {truth.node, a.node, b.node});
-}
-
-using Terms = Vec2<Term>;
-struct Point {
-    Term x, y, z;
-
-    Point relative_to(const Vec3<double>& p) const { return {x - p.x, y - p.y, z - p.z}; }
-    Term along(const Vec3<double>& d) const {
-        const std::pair<Term, double> parts[] = {{x, d.x}, {y, d.y}, {z, d.z}};
-        std::optional<Term> sum;
-        for (const auto& [coordinate, factor] : parts) {
-            if (factor != 0) {
-                const Term part = coordinate * factor;
-                sum = sum ? *sum + part : part;
-            }
-        }
-        return sum.value_or(x.constant(0));
-    }
-};
 
 constexpr double inverse_pi = std::numbers::inv_pi;
 
@@ -294,7 +239,7 @@ private:
         runtime::Phong<double>& p = made.phong;
         for (std::int32_t* index :
              {&p.ambient.function, &p.diffuse.function, &p.specular.function, &p.emission.function,
-              &p.reflect.function, &p.transmit.function, &p.shininess.function}) {
+              &p.reflect.function, &p.transmit.function, &p.shininess.function, &p.bump}) {
             if (*index == runtime::no_function) {
                 continue;
             }
@@ -337,32 +282,11 @@ ir::Function with_uv_of(const ir::Shape& shape, const ir::Function& function) {
             }
         },
         shape);
-    std::vector<std::uint32_t> moved;
-    for (std::size_t i = 0; i < function.nodes.size(); ++i) {
-        const ir::Node& node = function.nodes[i];
-        builder.locate(function.places[i]);
-        std::vector<std::uint32_t> operands;
-        for (std::size_t k = 0; k < arity(node); ++k) {
-            operands.push_back(moved[node.operands[k]]);
-        }
-        switch (node.kind) {
-        case ir::Node::Kind::constant:
-            moved.push_back(builder.constant(node.constant));
-            break;
-        case ir::Node::Kind::input:
-            moved.push_back(node.input == ir::Input::uv_x   ? uv.x.node
-                            : node.input == ir::Input::uv_y ? uv.y.node
-                                                            : builder.input(name(node.input)));
-            break;
-        case ir::Node::Kind::apply:
-            moved.push_back(builder.apply(row(node.op).name, operands));
-            break;
-        case ir::Node::Kind::image:
-            moved.push_back(
-                builder.look_up(function.images[node.image], node.channel, operands[0], operands[1]));
-            break;
-        }
-    }
+    const std::vector<std::uint32_t> moved = builder.include(function, [&](ir::Input which) {
+        return which == ir::Input::uv_x   ? uv.x.node
+               : which == ir::Input::uv_y ? uv.y.node
+                                          : builder.input(name(which));
+    });
     std::vector<lang::Scalar> results;
     for (const std::uint32_t result : function.results) {
         results.push_back({0, moved[result]});

@@ -3,6 +3,7 @@
 #include "compiler/bounds.h"
 #include "compiler/coincident_faces.h"
 #include "compiler/ir/objects.h"
+#include "compiler/shape_rules.h"
 #include "compiler/values.h"
 #include "lang/schema.h"
 
@@ -68,7 +69,7 @@ double farthest_depth(const ir::Scene& scene) {
     double farthest = 0;
     for_each_box(scene, [&](const std::optional<Box>& bounds, const auto&, const auto&) {
         if (!bounds) {
-            farthest = scene.far;
+            farthest = scene.camera.far;
             return;
         }
         const Box& box = *bounds;
@@ -78,7 +79,7 @@ double farthest_depth(const ir::Scene& scene) {
             farthest = std::max(farthest, dot(scene.camera.eye - p, scene.camera.n));
         }
     });
-    return std::min(farthest, scene.far);
+    return std::min(farthest, scene.camera.far);
 }
 
 /// Where the author chose the range of depths; else the camera.
@@ -99,8 +100,8 @@ lang::Span depth_range_span(const lang::Module& module, lang::Span camera) {
 /// L4: at the depth d the pseudodepth changes by 2 far near / ((far - near) d^2) per unit of depth, and -1..1
 /// is divided into depth_steps.
 void check_depth(const lang::Module& module, const ir::Scene& scene, lang::Diagnostics& diagnostics) {
-    const double near = scene.near;
-    const double far = scene.far;
+    const double near = scene.camera.near;
+    const double far = scene.camera.far;
     const auto resolved_at = [&](double d) { return d * d * (far - near) / (far * near * depth_steps); };
     const auto pixel_at = [&](double d) { return 2 * scene.camera.half_height * d / scene.settings.height; };
     if (scene.camera.projection != runtime::Projection::perspective || resolved_at(far) <= pixel_at(far)) {
@@ -118,6 +119,36 @@ void check_depth(const lang::Module& module, const ir::Scene& scene, lang::Diagn
                            fmt::format("{:.6g}", near), fmt::format("{:.4g}", depth),
                            fmt::format("{:.2g}", resolved), fmt::format("{:.2g}", pixel),
                            fmt::format("{:.1g}", 2 * enough));
+    }
+}
+
+/// Why raster mode has no triangles for a shape; empty: it has.
+std::string obstacle_to_raster(const ir::Scene& scene, const ir::Shape& shape) {
+    if (std::holds_alternative<runtime::Quadric<double>>(shape) && !object_bounds(shape, scene)) {
+        return "a quadric has bounds only by `within`";
+    }
+    std::string obstacle;
+    if (const auto* solid = std::get_if<runtime::Csg<double>>(&shape)) {
+        ir::for_each_csg_node(scene, *solid, [&](const ir::CsgNode& node) {
+            if (node.op == runtime::CsgOp::member && obstacle.empty()) {
+                const ir::Shape& member = scene.members[node.member].shape;
+                obstacle = std::holds_alternative<runtime::Mesh<double>>(member)
+                               ? "there is a mesh in it"
+                               : obstacle_to_raster(scene, member);
+            }
+        });
+    }
+    return obstacle;
+}
+
+void check_raster(const ir::Scene& scene, lang::Diagnostics& diagnostics) {
+    if (scene.settings.method != runtime::Method::raster) {
+        return;
+    }
+    for (const ir::Object& object : scene.objects) {
+        if (const std::string obstacle = obstacle_to_raster(scene, object.shape); !obstacle.empty()) {
+            diagnostics.report(Diag::raster_left_out, object.span, obstacle);
+        }
     }
 }
 
@@ -158,6 +189,42 @@ void check_distance(const ir::Scene& scene, lang::Diagnostics& diagnostics) {
     }
 }
 
+/// Why a shape has no inside, of which it is a boundary. Empty if it has.
+std::string opening_of(const ir::Object& object, const ir::Scene& scene) {
+    if (std::holds_alternative<runtime::Csg<double>>(object.shape)) {
+        return "";
+    }
+    if (const auto* mesh = std::get_if<runtime::Mesh<double>>(&object.shape)) {
+        const std::string opening = open_part(scene.meshes[mesh->mesh]);
+        // To refraction it does not matter whether all triangles face inwards.
+        return opening.starts_with("is open") ? opening : "";
+    }
+    return std::string(open_part(object.shape));
+}
+
+/// What bends rays is closed.
+void check_openings(const ir::Scene& scene, lang::Diagnostics& diagnostics) {
+    const auto bends = [&](const runtime::Sides& sides) {
+        return refracts(scene.materials[sides.front].phong) || refracts(scene.materials[sides.back].phong);
+    };
+    const auto check = [&](const ir::Object& object) {
+        const std::string opening = bends(object.sides) ? opening_of(object, scene) : "";
+        if (!opening.empty()) {
+            diagnostics.report(Diag::open_refraction, object.span, object.path, opening);
+        }
+        return !opening.empty();
+    };
+    ir::for_each_piece(scene, check, [&](const ir::ObjectArray& array) {
+        for (const ir::ObjectColumn& column : array.columns) {
+            for (std::size_t round = 0; round < array.rounds; ++round) {
+                if (bends(column.sides_of(round)) && check(ir::object_of(column, round))) {
+                    break; // the others differ in numbers only
+                }
+            }
+        }
+    });
+}
+
 /// One index of refraction per body.
 void check_bodies(const ir::Scene& scene, lang::Diagnostics& diagnostics) {
     if (std::none_of(scene.materials.begin(), scene.materials.end(),
@@ -186,8 +253,10 @@ void check_bodies(const ir::Scene& scene, lang::Diagnostics& diagnostics) {
 void check_scene(const lang::Module& module, const ir::Scene& scene, lang::Diagnostics& diagnostics) {
     check_depth(module, scene, diagnostics);
     check_distance(scene, diagnostics);
+    check_raster(scene, diagnostics);
     check_coincident_faces(scene, diagnostics);
     check_bodies(scene, diagnostics);
+    check_openings(scene, diagnostics);
 }
 
 } // namespace scc::compiler

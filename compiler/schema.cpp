@@ -300,7 +300,13 @@ Constructor phong() {
                         .limits = {.min = 0, .max = 1, .rule = "it lies between 0 and 1"},
                         .doc = "alpha, by which ambient, diffuse, specular and emission are multiplied; "
                                "1 - opacity is added to transmit"},
-                       unsupported("bump", Type::function({TypeKind::surface}, TypeKind::number))},
+                       {.name = "bump",
+                        .type = Type::function({TypeKind::surface}, TypeKind::number),
+                        .doc = "a height, in world units, by which the surface seems to be displaced along "
+                               "its normal, outwards: its slope, to first order, tilts the normal that "
+                               "light, mirrors and refraction go by; outlines and shadows stay. What is "
+                               "turned away from a light without the bump stays dark. It may read `s.p`, "
+                               "`s.world` and `s.uv`"}},
             .doc = "Phong illumination with the halfway vector"};
 }
 
@@ -651,7 +657,7 @@ Constructor ray() {
                                 .type = TypeKind::number,
                                 .default_value = number(5),
                                 .limits = {.min = 0,
-                                           .max = 200,
+                                           .max = runtime::most_bounces,
                                            .integer = true,
                                            .rule = "a depth is a whole number from 0 to 200"},
                                 .doc = "mirrors and refractions one after the other; 0: none"},
@@ -680,7 +686,7 @@ Constructor raster() {
                        {.name = "clip",
                         .type = TypeKind::boolean,
                         .default_value = boolean(true),
-                        .doc = "against the view volume"},
+                        .doc = "at the near and the far plane; the sides of the window always cut"},
                        {.name = "cull",
                         .type = TypeKind::string,
                         .default_value = text("none"),

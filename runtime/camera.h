@@ -32,6 +32,8 @@ struct Camera {
     R half_width = 0;                       ///< of the spherical camera: fov_x / 2 in radians
     R lens_radius = 0;                      ///< of the perspective camera; 0: a pinhole
     R focus = 1;                            ///< along the view axis, from the lens to what it shows sharp
+    R near = R(0.1);                        ///< along the view axis: what a raster picture shows lies between
+    R far = 1000;
 };
 
 /// Where a point of the picture lies in the window, in half window heights from its middle to the right or

@@ -30,8 +30,8 @@ void store_aovs(const S& scene, const Ray<typename S::Real>& ray, AovImage& to, 
     const bool met = hit.kind != no_kind;
     Encounter<R> at{};
     if (met) {
-        constexpr EncounterParts parts{.body = true, .point = false, .uv = true};
-        meet<parts>(scene, ray, hit, true, !to.uv[0].empty(), at);
+        constexpr EncounterParts parts{.body = true, .point = false, .uv = true, .slopes = false};
+        meet<parts>(scene, ray, hit, true, !to.uv[0].empty(), false, at);
     }
     store_at(to.depth, i, hit.shape.t * length(ray.dir));
     store_at(to.planar, i, hit.shape.t * -dot(ray.dir, scene.camera.n));

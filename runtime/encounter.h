@@ -1,5 +1,6 @@
 #pragma once
 
+#include "runtime/bump.h"
 #include "runtime/raycast.h"
 
 /// Where rays meet surfaces: what shading and what looks at pictures otherwise ask of a hit.
@@ -11,14 +12,16 @@ struct Encounter {
     SurfacePoint<L> point; ///< see EncounterParts
     Vec3<L> normal;        ///< m: shading normal that faces the viewer
     IndexOf<L> material;
-    IndexOf<L> body; ///< Tag::id of what the surface encloses; see EncounterParts
+    IndexOf<L> body;       ///< Tag::id of what the surface encloses; see EncounterParts
+    PointSlopes<L> slopes; ///< of `point`; see EncounterParts
 };
 
 /// Which of an encounter's parts are filled in beside surface, normal and material.
 struct EncounterParts {
     bool body;
     bool point;
-    bool uv; ///< point.uv; only where meet() is told so
+    bool uv;     ///< point.uv; only where meet() is told so
+    bool slopes; ///< likewise; those of uv where both are
 };
 
 /// Puts in `to` what the lanes in `here` have. What the first group of lanes has may stand in the others too,
@@ -34,7 +37,7 @@ void put(bool first, const Mask& here, const T& value, T& to) {
 template <EncounterParts parts, class S, class L>
 [[gnu::always_inline]] inline void meet(const S& scene, const Ray<L>& ray, const Hit<L>& hit,
                                         const MaskOf<L>& active, [[maybe_unused]] bool wants_uv,
-                                        Encounter<L>& at) {
+                                        [[maybe_unused]] bool wants_slopes, Encounter<L>& at) {
     bool first = true;
     for_each_primitive(
         scene, hit, active,
@@ -68,6 +71,20 @@ template <EncounterParts parts, class S, class L>
                 if (wants_uv) {
                     put(first, here, uv_of(scene, primitive, ray, hit.shape, here, object_point),
                         at.point.uv);
+                }
+            }
+            if constexpr (parts.slopes) {
+                if (wants_slopes) {
+                    const std::array<Vec3<L>, 3> slopes = object_point_slopes(primitive, L(0));
+                    for (std::size_t i = 0; i < slopes.size(); ++i) {
+                        put(first, here, slopes[i], at.slopes.p[i]);
+                    }
+                    if (parts.uv && wants_uv) {
+                        const Vec2<Vec3<L>> uv =
+                            uv_slopes_of(scene, primitive, ray, hit.shape, here, object_point);
+                        put(first, here, uv.x, at.slopes.uv.x);
+                        put(first, here, uv.y, at.slopes.uv.y);
+                    }
                 }
             }
             first = false;

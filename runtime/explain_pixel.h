@@ -170,6 +170,7 @@ public:
         ray.shading_normal = widened(at.normal);
         ray.is_front = dot(widened(at.surface.normal), ray.dir) <= 0;
         ray.material = at.material;
+        ray.is_bumped = scene_.materials[at.material].bump != no_function;
         ray.ambient = widened(material.ambient);
         ray.diffuse = widened(material.diffuse);
         ray.specular = widened(material.specular);

@@ -75,6 +75,7 @@ struct RayTerms {
     Vec3<double> point, error, normal, shading_normal;
     bool is_front = true; ///< the side that the geometric normal points to
     std::uint32_t material = 0;
+    bool is_bumped = false;
     Rgb<double> ambient, diffuse, specular, emission, reflect, transmit;
     double shininess = 0;
     std::vector<LightTerms> lights;

@@ -31,6 +31,7 @@ struct Phong {
     Varying<R> shininess{32};
     R ior = 1;            ///< index of refraction of what the surface encloses
     bool fresnel = false; ///< by the dielectric's reflectance F: reflect counts F times, transmit 1 - F times
+    std::int32_t bump = no_function; ///< height along the geometric normal, in world units; see bump.h
 
     friend constexpr bool operator==(const Phong&, const Phong&) = default;
 };

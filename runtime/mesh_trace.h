@@ -602,6 +602,24 @@ Surface<L> mesh_surface(const MeshData& mesh, const Ray<L>& ray, const ShapeHit<
     return result;
 }
 
+namespace detail {
+
+/// The coordinates at the corners of what the lanes in `needed` have hit: u and v are x and y.
+template <class L>
+Corners<L> gather_uvs(const MeshData& mesh, const ShapeHit<L>& hit, const MaskOf<L>& needed) {
+    using R = RealOf<L>;
+    return gather_corners<L>(hit.part, needed, [&](const TrianglePlace& place) {
+        const std::uint32_t* index = mesh.uv_indices + std::size_t{3} * triangle_id(mesh, place);
+        const auto read = [&](std::uint32_t i) {
+            const float* uv = mesh.uvs + std::size_t{2} * i;
+            return Vec3<R>{R(uv[0]), R(uv[1]), R(0)};
+        };
+        return Corners<R>{read(index[0]), read(index[1]), read(index[2])};
+    });
+}
+
+} // namespace detail
+
 /// Barycentric, as POV-Ray's mesh2; (0, 0) of a mesh without coordinates. Of the lanes in `needed`.
 template <class L>
 Vec2<L> mesh_uv(const MeshData& mesh, const Ray<L>& ray, const ShapeHit<L>& hit, const MaskOf<L>& needed) {
@@ -611,17 +629,21 @@ Vec2<L> mesh_uv(const MeshData& mesh, const Ray<L>& ray, const ShapeHit<L>& hit,
     }
     const Corners<L> corners = detail::gather_corners<L>(
         hit.part, needed, [&](const TrianglePlace& place) { return corners_at<R>(mesh, place); });
-    const Corners<L> uvs = detail::gather_corners<L>(hit.part, needed, [&](const TrianglePlace& place) {
-        const std::uint32_t* index = mesh.uv_indices + std::size_t{3} * triangle_id(mesh, place);
-        const auto read = [&](std::uint32_t i) {
-            const float* uv = mesh.uvs + std::size_t{2} * i;
-            return Vec3<R>{R(uv[0]), R(uv[1]), R(0)};
-        };
-        return Corners<R>{read(index[0]), read(index[1]), read(index[2])};
-    });
+    const Corners<L> uvs = detail::gather_uvs(mesh, hit, needed);
     const Vec3<L> weights = barycentric(corners, ray);
     const Vec3<L> uv = uvs.a * weights.x + uvs.b * weights.y + uvs.c * weights.z;
     return {uv.x, uv.y};
+}
+/// Their gradients by the point.
+template <class L>
+Vec2<Vec3<L>> mesh_uv_slopes(const MeshData& mesh, const ShapeHit<L>& hit, const MaskOf<L>& needed) {
+    using R = RealOf<L>;
+    if (mesh.uvs == nullptr) {
+        return {};
+    }
+    const Corners<L> corners = detail::gather_corners<L>(
+        hit.part, needed, [&](const TrianglePlace& place) { return corners_at<R>(mesh, place); });
+    return corner_slopes(corners, detail::gather_uvs(mesh, hit, needed));
 }
 
 } // namespace scc::runtime

@@ -269,6 +269,68 @@ Vec2<L> uv_of([[maybe_unused]] const S& scene, const Primitive& primitive, const
     }
 }
 
+namespace detail {
+
+/// The gradients of the coordinates on the surface by the object's point.
+template <class S, class Primitive, class L>
+Vec2<Vec3<L>> object_uv_slopes([[maybe_unused]] const S& scene, const Primitive& primitive,
+                               [[maybe_unused]] const Ray<L>& ray, const ShapeHit<L>& hit,
+                               [[maybe_unused]] const MaskOf<L>& needed, const Vec3<L>& object_point) {
+    using Shape = decltype(primitive.shape);
+    if constexpr (is_mesh<Shape>) {
+        return mesh_uv_slopes(scene.meshes[primitive.shape.mesh], hit, needed);
+    } else if constexpr (requires { primitive.shape.template uv_slopes<L>(); }) {
+        return primitive.shape.template uv_slopes<L>();
+    } else if constexpr (has_uv<Shape>) {
+        using Number = Dual<L, 3>;
+        const Vec3<Number> point{Number::variable(object_point.x, 0), Number::variable(object_point.y, 1),
+                                 Number::variable(object_point.z, 2)};
+        const Vec2<Number> uv = primitive.shape.uv(ray, hit, point);
+        return {{uv.x.d[0], uv.x.d[1], uv.x.d[2]}, {uv.y.d[0], uv.y.d[1], uv.y.d[2]}};
+    } else {
+        return {};
+    }
+}
+
+template <class L>
+Vec3<L> row_of(const Affine<RealOf<L>>& map, std::size_t i) {
+    return {L(map.m[i][0]), L(map.m[i][1]), L(map.m[i][2])};
+}
+
+} // namespace detail
+
+/// Gradients by the point in the world of what per-point functions read.
+template <class L>
+struct PointSlopes {
+    std::array<Vec3<L>, 3> p; ///< of the point in object space
+    Vec2<Vec3<L>> uv;
+};
+
+template <class Shape, class L>
+std::array<Vec3<L>, 3> object_point_slopes(const Bare<Shape>&, const L&) {
+    return {{{L(1), L(0), L(0)}, {L(0), L(1), L(0)}, {L(0), L(0), L(1)}}};
+}
+template <class Shape, class R, class L>
+std::array<Vec3<L>, 3> object_point_slopes(const Placed<Shape, R>& primitive, const L&) {
+    const Affine<R>& map = primitive.object_from_world;
+    return {detail::row_of<L>(map, 0), detail::row_of<L>(map, 1), detail::row_of<L>(map, 2)};
+}
+
+/// Of the coordinates on the surface; arguments as of uv_of.
+template <class S, class Shape, class L>
+Vec2<Vec3<L>> uv_slopes_of(const S& scene, const Bare<Shape>& primitive, const Ray<L>& ray,
+                           const ShapeHit<L>& hit, const MaskOf<L>& needed, const Vec3<L>& object_point) {
+    return detail::object_uv_slopes(scene, primitive, ray, hit, needed, object_point);
+}
+template <class S, class Shape, class R, class L>
+Vec2<Vec3<L>> uv_slopes_of(const S& scene, const Placed<Shape, R>& primitive, const Ray<L>& ray,
+                           const ShapeHit<L>& hit, const MaskOf<L>& needed, const Vec3<L>& object_point) {
+    const Vec2<Vec3<L>> slopes =
+        detail::object_uv_slopes(scene, primitive, to_object(primitive, ray), hit, needed, object_point);
+    return {transform_normal(primitive.object_from_world, slopes.x),
+            transform_normal(primitive.object_from_world, slopes.y)};
+}
+
 template <class S, class Shape>
 Bounds<typename S::Real> bounds_of(const S& scene, const Bare<Shape>& primitive) {
     if constexpr (is_csg<Shape>) {

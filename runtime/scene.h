@@ -15,6 +15,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -43,6 +44,7 @@ struct SceneTraits {
     bool two_sided = false;      ///< some shape has a back material of its own
     bool functions = false;      ///< some material field is a per-point function
     bool uv = false;             ///< some of them reads the coordinates on the surface
+    bool bump = false;           ///< some material has one
     bool smooth_normals = false; ///< some triangle or mesh has vertex normals
     bool shadows = false;
     bool accelerator = false; ///< enough bounded shapes that a hierarchy over them pays
@@ -53,13 +55,15 @@ struct SceneTraits {
     bool pixel_sampling =
         false;            ///< samples in other places than a grid's, other weights than a box's, or adaptive
     bool spectra = false; ///< drawn three wavelengths at a time (bands.h), which the kernels do not notice
+    bool raster = false;  ///< drawn by triangles and lines (raster/draw.h)
+    bool lines = false;   ///< where raster: it shows polylines, or edges (wireframe, hidden line)
 
     friend constexpr bool operator==(const SceneTraits&, const SceneTraits&) = default;
 };
 
-inline constexpr SceneTraits everything{~0U,  ~0U,  ~0U,  ~0U,  true, true, true, true, true,
-                                        true, true, true, true, true, true, true, true, true,
-                                        true, true, true, true, true, true, true, true, true};
+inline constexpr SceneTraits everything{~0U,  ~0U,  ~0U,  ~0U,  true, true, true, true, true, true,
+                                        true, true, true, true, true, true, true, true, true, true,
+                                        true, true, true, true, true, true, true, true, true, true};
 
 /// What every shape in a scene carries.
 struct Tag {
@@ -156,6 +160,14 @@ struct Accelerator {
 template <class Primitive>
 struct Of {};
 
+/// A straight piece of a line that a raster picture shows, in the world; rays do not meet it. Not lit.
+template <class R>
+struct LineSegment {
+    Vec3<R> from{}, to{};
+    Rgb<R> color{1, 1, 1};
+    R width = 1; ///< in pixels
+};
+
 /// The parts of a scene that most scenes lack, for a scene type to inherit and to hide.
 template <class R>
 struct SceneBase {
@@ -175,6 +187,7 @@ struct SceneBase {
     static constexpr std::array<SpotLight<R>, 0> spot_lights{};
     static constexpr std::array<RectangleLight<R>, 0> rectangle_lights{};
     static constexpr std::array<MeshData, 0> meshes{};
+    static constexpr std::array<LineSegment<R>, 0> line_segments{};
     static constexpr bool reads_uv = true; ///< where traits.uv: some function does
     static constexpr Camera<R> camera{};
     static constexpr Rgb<R> ambient{};
@@ -227,6 +240,7 @@ struct SceneBase {
 ///             }
 ///         }
 ///         static inline std::vector<MeshData> meshes; // only with meshes: read before rendering
+///         static constexpr std::array<LineSegment<R>, ...> line_segments{...}; // only with traits.lines
 ///         static inline std::vector<ImageData> images; // only with images: for the functions
 ///         Accelerator accelerator;         // only with traits.accelerator: filled by prepare(scene)
 ///     };
@@ -242,6 +256,7 @@ concept SceneModel = requires(const S& s, const SurfacePoint<typename S::Real>& 
     s.spot_lights.size();
     s.rectangle_lights.size();
     s.meshes.size();
+    s.line_segments.size();
     { s.camera } -> std::convertible_to<Camera<typename S::Real>>;
     { s.ambient } -> std::convertible_to<Rgb<typename S::Real>>;
     { s.background } -> std::convertible_to<Rgb<typename S::Real>>;
@@ -274,6 +289,7 @@ struct DynamicScene {
     std::vector<SpotLight<R>> spot_lights;
     std::vector<RectangleLight<R>> rectangle_lights;
     std::vector<MeshData> meshes;
+    std::vector<LineSegment<R>> line_segments;
     std::vector<FunctionProgram<R>> functions; ///< Varying::function indexes it
     bool reads_uv = false;                     ///< some function does
     Camera<R> camera;

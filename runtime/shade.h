@@ -1,10 +1,9 @@
 #pragma once
 
 #include "runtime/accel/occluders.h"
-#include "runtime/encounter.h"
-#include "runtime/illumination.h"
 #include "runtime/media.h"
 #include "runtime/render_request.h"
+#include "runtime/surface_light.h"
 
 #include <algorithm>
 #include <array>
@@ -17,39 +16,6 @@ namespace scc::runtime {
 
 namespace detail {
 
-/// Constant tables of lights up to this size are unrolled.
-inline constexpr std::size_t unrolled_lights = 4;
-
-/// f(light, its index) for each.
-template <class Table, class F>
-void for_each_light(const Table& table, F&& f) {
-    constexpr std::size_t size = constant_size<Table>;
-    if constexpr (size > 0 && size <= unrolled_lights) {
-        [&]<std::size_t... i>(std::index_sequence<i...>) {
-            (f(table[i], i), ...);
-        }
-        (std::make_index_sequence<size>{});
-    } else {
-        for (std::size_t i = 0; i < table.size(); ++i) {
-            f(table[i], i);
-        }
-    }
-}
-
-template <class L>
-MaskOf<L> is_black(const Rgb<L>& c) {
-    return (c.r == 0) & (c.g == 0) & (c.b == 0);
-}
-
-/// A material's fields at a point.
-template <class L>
-struct Reflectances {
-    Rgb<L> ambient, diffuse, specular, emission, reflect, transmit;
-    L shininess;
-    L ior;
-    L fresnel; ///< 1 or 0
-};
-
 /// Where a ray goes on in two directions, one that could change a pixel by no more than this part of what is
 /// seen there is not followed: else their number doubles with each bounce.
 template <class R>
@@ -58,12 +24,6 @@ inline constexpr R least_weight = R(1e-9);
 /// Strictly between: what the light itself lies on does not shadow it, up to the rounding of t.
 template <class R>
 inline constexpr R before_the_light = 1 - 32 * std::numeric_limits<R>::epsilon();
-
-/// What a Shader tells of each ray: nothing. One that `observes` has the functions that the Shader calls (see
-/// explain_pixel.h); its lanes are one, and its scene has everything.
-struct Unobserved {
-    static constexpr bool observes = false;
-};
 
 template <SceneModel S, class L, class Observer = Unobserved>
 class Shader {
@@ -75,16 +35,16 @@ public:
 
     Shader(const S& scene, const RenderSettings& settings, RayCounts& counts, Observer observer = {})
         : scene_(scene), depth_(settings.depth), shadows_(settings.shadows), counts_(counts),
-          observer_(observer) {
+          observer_(observer), grid_points_(grid_points_of(scene)) {
         if constexpr (S::traits.transmission) {
             for (const Phong<R>& material : scene.materials) {
                 transmits_ = transmits_ || lets_through(material);
                 refracts_ = refracts_ || refracts(material);
             }
         }
-        if constexpr (S::traits.rectangle_lights) {
-            for (const auto& light : scene.rectangle_lights) {
-                for_each_point(light, [&](const PointLight<R>& point) { grid_points_.push_back(point); });
+        if constexpr (S::traits.bump) {
+            for (const Phong<R>& material : scene.materials) {
+                bumps_ = bumps_ || material.bump != no_function;
             }
         }
         if constexpr (S::traits.shadows && !has_hierarchy<S>) {
@@ -136,7 +96,10 @@ public:
                 if (any(pack.active)) {
                     goes_on = true;
                     meet(rays[i], hits[i], pack);
-                    look_up(pack);
+                    if constexpr (S::traits.bump) {
+                        bump(pack, rays[i]);
+                    }
+                    look_up(scene_, pack.at.material, pack.at.point, pack.active, pack.material);
                     if constexpr (Observer::observes) {
                         observer_.tell([&](auto& o) { o.met(hits[i], pack.at, pack.material); });
                     }
@@ -185,6 +148,9 @@ private:
         L bounces; ///< each ray's own
         IndexOf<L> media;
         Rgb<L> filter; ///< what transparent surfaces leave of the light in question
+        // Only with bumps:
+        Mask is_bumped;
+        Vec3<L> facing; ///< the geometric normal on the ray's side
     };
     /// A mirrored ray that waits until what is seen through its surface is done.
     struct Branch {
@@ -206,71 +172,63 @@ private:
 
     /// Fills in `pack.at`.
     void meet(const Ray<L>& ray, const Hit<L>& hit, Pack& pack) const {
-        constexpr EncounterParts parts{S::traits.refraction, S::traits.functions, S::traits.uv};
+        constexpr EncounterParts parts{S::traits.refraction, S::traits.functions, S::traits.uv,
+                                       S::traits.bump};
         bool reads_uv = false;
         if constexpr (S::traits.uv) {
             reads_uv = scene_.reads_uv;
         }
-        detail::meet<parts>(scene_, ray, hit, pack.active, reads_uv, pack.at);
+        detail::meet<parts>(scene_, ray, hit, pack.active, reads_uv, bumps_, pack.at);
     }
 
-    Rgb<L> value(const Varying<Rgb<R>>& field, const SurfacePoint<L>& point) const {
-        if constexpr (S::traits.functions) {
-            if (field.function != no_function) {
-                return scene_.color_function(field.function, point);
+    /// Replaces the shading normals of bumped surfaces.
+    void bump(Pack& pack, const Ray<L>& ray) const {
+        pack.is_bumped = Mask(false);
+        if (!bumps_) {
+            return;
+        }
+        Encounter<L>& at = pack.at;
+        const Vec3<L>& outward = at.surface.normal;
+        pack.facing = choose(dot(outward, ray.dir) > 0, -outward, outward);
+        for_each_material<L>(
+            scene_, at.material, pack.active, [&](const Phong<R>& material, const Mask& here, bool) {
+                if (material.bump != no_function) {
+                    const Dual<L, 3> height =
+                        scene_.number_function(material.bump, with_slopes(at.point, at.slopes));
+                    const Vec3<L> slope{height.d[0], height.d[1], height.d[2]};
+                    at.normal = choose(here, bumped_normal(at.normal, outward, slope), at.normal);
+                    pack.is_bumped = pack.is_bumped | here;
+                }
+            });
+    }
+    /// s.m. A bump is not lit by what its surface itself is turned away from.
+    L cosine_towards(const Vec3<L>& to_light, const Pack& pack) const {
+        const L cosine = dot(to_light, pack.at.normal);
+        if constexpr (S::traits.bump) {
+            if (bumps_) {
+                const L of_surface = dot(to_light, pack.facing);
+                return choose(pack.is_bumped & !(of_surface > 0), minimum(of_surface, cosine), cosine);
             }
         }
-        return lanes<L>(field.value);
+        return cosine;
     }
-    L value(const Varying<R>& field, const SurfacePoint<L>& point) const {
-        if constexpr (S::traits.functions) {
-            if (field.function != no_function) {
-                return scene_.number_function(field.function, point);
+    Vec3<L> mirror_direction(const Vec3<L>& dir, const Pack& pack) const {
+        const Vec3<L> result = reflect(dir, pack.at.normal);
+        if constexpr (S::traits.bump) {
+            if (bumps_) {
+                return choose(pack.is_bumped, reflect_bumped(dir, pack.at.normal, pack.facing), result);
             }
         }
-        return L(field.value);
+        return result;
     }
-
-    /// f(material, lanes, whether it is the first) for each that one of the active lanes has met.
-    template <class F>
-    void for_each_material(const Pack& pack, F&& f) const {
-        const IndexOf<L>& materials = pack.at.material;
-        bool first = true;
-        Mask among = pack.active;
-        do {
-            const std::uint32_t index = lane(materials, first_lane(among));
-            const Mask here = among & (materials == IndexOf<L>(index));
-            f(scene_.materials[index], here, first);
-            first = false;
-            among = among & !here;
-        } while (any(among));
-    }
-
-    /// Fills in `pack.material`.
-    void look_up(Pack& pack) const {
-        const Encounter<L>& at = pack.at;
-        Reflectances<L>& result = pack.material;
-        for_each_material(pack, [&](const Phong<R>& material, const Mask& here, bool first) {
-            put(first, here, value(material.ambient, at.point), result.ambient);
-            put(first, here, value(material.diffuse, at.point), result.diffuse);
-            if constexpr (S::traits.emission) {
-                put(first, here, value(material.emission, at.point), result.emission);
+    Refraction<L> refracted(const Vec3<L>& dir, const Pack& pack, const L& from, const L& to) const {
+        if constexpr (S::traits.bump) {
+            if (bumps_) {
+                const Vec3<L> flat = choose(pack.is_bumped, pack.facing, pack.at.normal);
+                return refract_bumped(dir, pack.at.normal, flat, from, to);
             }
-            if constexpr (S::traits.specular) {
-                put(first, here, value(material.specular, at.point), result.specular);
-                put(first, here, value(material.shininess, at.point), result.shininess);
-            }
-            if constexpr (S::traits.reflection) {
-                put(first, here, value(material.reflect, at.point), result.reflect);
-            }
-            if constexpr (S::traits.transmission) {
-                put(first, here, value(material.transmit, at.point), result.transmit);
-            }
-            if constexpr (S::traits.refraction) {
-                put(first, here, L(material.ior), result.ior);
-                put(first, here, L(truth(material.fresnel)), result.fresnel);
-            }
-        });
+        }
+        return refract(dir, pack.at.normal, from, to);
     }
 
     void start(Packs& packs, const std::array<Ray<L>, N>& rays) {
@@ -300,8 +258,8 @@ private:
             return false;
         }
         pack.weight = pack.weight * pack.material.reflect;
-        const Vec3<L> mirrored = reflect(ray.dir, pack.at.normal);
-        ray = {start_off(pack.at.surface, mirrored), mirrored, spawned_t_min<L>(), infinity<L>()};
+        const Vec3<L> dir = mirror_direction(ray.dir, pack);
+        ray = {start_off(pack.at.surface, dir), dir, spawned_t_min<L>(), infinity<L>()};
         counts_.reflected += count_lanes(pack.active);
         return true;
     }
@@ -324,7 +282,7 @@ private:
                 L from(1), to(1);
                 cross(pack, dielectric, media, from, to);
                 const Mask bent = dielectric & (from != to);
-                const Refraction<L> refraction = refract(ray.dir, pack.at.normal, from, to);
+                const Refraction<L> refraction = refracted(ray.dir, pack, from, to);
                 const Mask total = bent & through & refraction.is_total;
                 const L share = choose(bent, refraction.reflectance, L(0));
                 const Mask fresnel = dielectric & (material.fresnel != 0);
@@ -352,7 +310,7 @@ private:
         }
         Branch branch{Mask(mirrored & through), mirrored_weight, pack.bounces + 1, pack.media, {}, {}};
         if (any(mirrored)) {
-            branch.dir = reflect(ray.dir, pack.at.normal);
+            branch.dir = mirror_direction(ray.dir, pack);
             branch.org = start_off(pack.at.surface, branch.dir);
             if (any(branch.active)) {
                 waiting.push_back(branch);
@@ -499,10 +457,7 @@ private:
             if (none(pack.active)) {
                 continue;
             }
-            pack.light = lanes<L>(scene_.ambient) * pack.material.ambient;
-            if constexpr (S::traits.emission) {
-                pack.light = pack.light + pack.material.emission;
-            }
+            pack.light = own_light(scene_, pack.material);
         }
         const auto add_light = [&](const auto& light, std::size_t index) { add(light, index, packs, rays); };
         if constexpr (S::traits.point_lights) {
@@ -537,11 +492,8 @@ private:
                 continue;
             }
             seen[i] = light_at(light, packs[i].at.surface.point);
-            cosine[i] = dot(seen[i].to_light, packs[i].at.normal);
-            lit[i] = lit[i] & (cosine[i] > 0);
-            if constexpr (requires { light.cos_outer; }) {
-                lit[i] = lit[i] & (cone_cosine(light, seen[i].to_light) > L(light.cos_outer));
-            }
+            cosine[i] = cosine_towards(seen[i].to_light, packs[i]);
+            lit[i] = lit_lanes(light, seen[i], cosine[i], lit[i]);
             if constexpr (Observer::observes) {
                 observer_.tell([&](auto& o) { o.light(light, seen[i], cosine[i], lit[i]); });
             }
@@ -561,32 +513,8 @@ private:
     template <class Light>
     void add(const Light& light, Pack& pack, const Vec3<L>& dir, const LightAt<L>& seen, const L& cosine,
              const Mask& lit) const {
-        const Reflectances<L>& material = pack.material;
-        Rgb<L> reflected = lanes<L>(light.diffuse) * material.diffuse * cosine;
-        if constexpr (Observer::observes) {
-            observer_.tell([&](auto& o) { o.diffuse(reflected); });
-        }
-        if constexpr (S::traits.specular) {
-            const Mask highlit = lit & !is_black(material.specular);
-            if (any(highlit)) {
-                const Rgb<L> color = lanes<L>(S::traits.separate_specular ? light.specular : light.diffuse);
-                const L strength =
-                    highlight(pack.at.normal, seen.to_light, -normalize(dir), material.shininess);
-                reflected = choose(highlit, reflected + color * material.specular * strength, reflected);
-                if constexpr (Observer::observes) {
-                    observer_.tell(
-                        [&](auto& o) { o.specular(strength, color * material.specular * strength); });
-                }
-            }
-        }
-        if constexpr (S::traits.attenuation && requires { light.kc; }) {
-            if (is_attenuated(light)) {
-                reflected = reflected / attenuation(light, seen.distance);
-            }
-        }
-        if constexpr (requires { light.cos_outer; }) {
-            reflected = reflected * cone_share(light, cone_cosine(light, seen.to_light));
-        }
+        Rgb<L> reflected =
+            reflected_light<S>(light, pack.material, pack.at.normal, dir, seen, cosine, lit, observer_);
         if constexpr (S::traits.transmission && S::traits.shadows) {
             reflected = reflected * pack.filter;
         }
@@ -689,9 +617,11 @@ private:
         pack.active = open;
         meet(ray, hit, pack);
         Rgb<L> transmit;
-        for_each_material(pack, [&](const Phong<R>& material, const Mask& here, bool first) {
-            put(first, here, value(material.transmit, pack.at.point), transmit);
-        });
+        for_each_material<L>(scene_, pack.at.material, pack.active,
+                             [&](const Phong<R>& material, const Mask& here, bool first) {
+                                 put(first, here, value_at(scene_, material.transmit, pack.at.point),
+                                     transmit);
+                             });
         filter = choose(open, filter * transmit, filter);
         ray = feeler(light, pack.at.surface);
     }
@@ -723,6 +653,7 @@ private:
     [[no_unique_address]] mutable Observer observer_;
     bool transmits_ = false; ///< some material lets light through
     bool refracts_ = false;  ///< and has an index of refraction
+    bool bumps_ = false;     ///< some material is bumped
     Media<R> media_;
     std::array<std::vector<Branch>, N> waiting_; ///< of each pack
     Vec3<R> start_{std::numeric_limits<R>::quiet_NaN(), 0, 0};

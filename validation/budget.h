@@ -12,7 +12,7 @@ namespace scc::validation {
 /// What a renderer's image may differ from ours by. Derived from the measured floor of that renderer, see
 /// budget.cpp.
 struct Budget {
-    std::string renderer; ///< "native", "pov", "blender"
+    std::string renderer; ///< "native", "pov", "blender", "opengl"
     double max_error = 0; ///< of all pixels but `outliers`; infinite: no such limit
     std::size_t outliers = 0;
     std::optional<double> max_away_from_edges;
@@ -32,6 +32,9 @@ std::optional<Budget> budget_for(const std::string& renderer, int width, int hei
 
 /// The same for a picture with surfaces that the renderer got as meshes refined to a fraction of a pixel.
 Budget with_refined_meshes(Budget budget, int width, int height, int samples_per_axis = 1);
+
+/// The same for a picture with bumps whose slopes the renderer takes by differences.
+Budget with_differenced_bumps(Budget budget, int width, int height);
 
 nlohmann::ordered_json to_json(const Budget& budget);
 

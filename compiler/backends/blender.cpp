@@ -5,6 +5,7 @@
 #include "compiler/backends/blender_mesh.h"
 #include "compiler/backends/blender_needs.h"
 #include "compiler/backends/blender_scene.h"
+#include "compiler/resolve_bumps.h"
 #include "compiler/resolve_uv.h"
 #include "compiler/writer.h"
 
@@ -42,8 +43,19 @@ import numpy as np
 } // namespace
 
 std::string emit_blender(const ir::Scene& whole, Ledger& ledger) {
-    const std::optional<ir::Scene> resolved =
-        whole.traits.uv ? std::optional(resolve_uv(whole)) : std::nullopt;
+    std::optional<ir::Scene> resolved = whole.traits.uv ? std::optional(resolve_uv(whole)) : std::nullopt;
+    if (whole.traits.bump) {
+        ResolvedBumps bumps = resolve_bumps(resolved ? *resolved : whole, BumpForm::world_slope);
+        for (const std::uint32_t material : bumps.flat) {
+            const ir::Material& flat = bumps.scene.materials[material];
+            ledger.push_back(
+                {Fidelity::dropped, "phong bump", flat.name, flat.span,
+                 "its slope has no formula where it reads an image, `noise` or the coordinates of a "
+                 "mesh",
+                 0});
+        }
+        resolved = std::move(bumps.scene);
+    }
     const ir::Scene& scene = resolved ? *resolved : whole;
     BlenderNeeds needs = blender_needs(scene);
     if (needs_packing(scene, needs)) {

@@ -196,6 +196,11 @@ private:
         record_function(p.emission.function, "emission", material);
         record_function(p.reflect.function, "reflect", material);
         record_function(p.shininess.function, "shininess", material);
+        if (p.bump != runtime::no_function) {
+            add({Fidelity::exact,
+                 "the height's slope in nodes, which tilts the normal; not of the artist's look"},
+                "phong bump", material.name, material.span);
+        }
     }
     void record_function(std::int32_t function, std::string_view field, const ir::Material& material) {
         if (function == runtime::no_function) {
@@ -286,7 +291,7 @@ private:
             add(fits_after_shift()
                     ? Account{Fidelity::exact, "the window is shifted by half a pixel"}
                     : Account{Fidelity::dropped, "Cycles' panoramas end at the poles and behind"},
-                "sampling", "render", scene_.sampling_span);
+                "sampling", "render", scene_.method_span);
         }
         if (needs_.extent < smallest_scene) {
             add({Fidelity::dropped, "Blender's camera sees nothing nearer than 1e-6"}, "scale", "scene",

@@ -308,6 +308,9 @@ private:
         if (is_present(phong.emission)) {
             want("emission");
         }
+        if (phong.bump != runtime::no_function) {
+            want("bump");
+        }
         Phong<double> drawn = phong;
         drawn.transmit = {}; // is not written
         for (const std::int32_t function : ir::functions_of(drawn)) {

@@ -215,6 +215,9 @@ private:
         if (has("mirror") && has_mirror(phong)) {
             text += ", reflect=" + field(phong.reflect);
         }
+        if (phong.bump != runtime::no_function) {
+            text += fmt::format(", bump=\"{}\"", keys_[static_cast<std::size_t>(phong.bump)]);
+        }
         return text;
     }
     template <class T>

@@ -77,9 +77,9 @@ std::string literal(const Affine<R>& a) {
 }
 template <class R>
 std::string literal(const runtime::Phong<R>& p) {
-    return fmt::format("{{{}, {}, {}, {}, {}, {}, {}, {}, {}}}", literal(p.ambient), literal(p.diffuse),
+    return fmt::format("{{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}}}", literal(p.ambient), literal(p.diffuse),
                        literal(p.specular), literal(p.emission), literal(p.reflect), literal(p.transmit),
-                       literal(p.shininess), literal(p.ior), literal(p.fresnel));
+                       literal(p.shininess), literal(p.ior), literal(p.fresnel), p.bump);
 }
 template <class R>
 std::string literal(const runtime::PointLight<R>& l) {
@@ -102,10 +102,16 @@ std::string literal(const runtime::DirectionalLight<R>& l) {
 }
 template <class R>
 std::string literal(const runtime::Camera<R>& c) {
-    return fmt::format("{{Projection::{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}}}",
+    return fmt::format("{{Projection::{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}}}",
                        word(runtime::projection_names, c.projection), literal(c.eye), literal(c.u),
                        literal(c.v), literal(c.n), literal(c.half_height), literal(c.shift_x),
-                       literal(c.shift_y), literal(c.half_width), literal(c.lens_radius), literal(c.focus));
+                       literal(c.shift_y), literal(c.half_width), literal(c.lens_radius), literal(c.focus),
+                       literal(c.near), literal(c.far));
+}
+template <class R>
+std::string literal(const runtime::LineSegment<R>& l) {
+    return fmt::format("{{{}, {}, {}, {}}}", literal(l.from), literal(l.to), literal(l.color),
+                       literal(l.width));
 }
 template <class R>
 std::string literal(const runtime::Mesh<R>& mesh) {
@@ -156,6 +162,20 @@ std::string literal(const runtime::CsgNode& node) {
     static constexpr const char* ops[] = {"member", "unite", "intersect", "subtract"};
     return fmt::format("{{CsgOp::{}, {}, {{{}, {}}}}}", ops[static_cast<std::size_t>(node.op)], node.size,
                        node.member.kind, node.member.index);
+}
+
+std::string literal(const runtime::RenderSettings& s) {
+    std::string text = fmt::format(
+        "{{{}, {}, {}, {}, {}, PixelPoint::{}, Sampler::{}, PixelFilter::{}, {}", s.width, s.height,
+        s.samples, s.depth, literal(s.shadows), word(runtime::pixel_point_names, s.point),
+        word(runtime::sampler_names, s.sampler), word(runtime::filter_names, s.filter), literal(s.adaptive));
+    if (s.method == runtime::Method::raster) {
+        text += fmt::format(", Method::raster, {{RasterShading::{}, Cull::{}, {}, {}}}",
+                            word(runtime::raster_shading_names, s.raster.shading),
+                            word(runtime::cull_names, s.raster.cull), literal(s.raster.clip),
+                            literal(s.raster.tessellation));
+    }
+    return text + "}";
 }
 
 // ---- names of types ------------------------------------------------------------------------------------
@@ -220,6 +240,7 @@ private:
     void meshes();
     void images();
     void scene_type();
+    void draw_statement(const std::string& request, const std::string& image);
     void program();
 
     const ir::Scene& scene_;
@@ -438,6 +459,9 @@ void Emitter<R>::scene_type() {
         values_.add(std::span<const R>(function_constants_));
         read_member("function_constants");
     }
+    if (scene_.traits.lines) {
+        table("LineSegment<R>", "line_segments", line_segments_of<R>(scene_));
+    }
     meshes();
     images();
     if (scene_.traits.accelerator || any_scene_) {
@@ -540,6 +564,16 @@ void Emitter<R>::images() {
 }
 
 template <class R>
+void Emitter<R>::draw_statement(const std::string& request, const std::string& image) {
+    if (!scene_.traits.raster) {
+        out_.line("return render(scene, {}, {});", request, image);
+        return;
+    }
+    out_.line("return draw_raster(scene, raster_model(scene, {}.settings), {}, {});", request, request,
+              image);
+}
+
+template <class R>
 void Emitter<R>::program() {
     out_.raw_line("Scene scene;");
     out_.blank();
@@ -551,7 +585,9 @@ void Emitter<R>::program() {
     if (has_bands()) {
         out_.raw_line("scene.take_band(0);");
     }
-    out_.raw_line("prepare(scene);");
+    if (!scene_.traits.raster) {
+        out_.raw_line("prepare(scene);");
+    }
     out_.dedent();
     out_.raw_line("}");
     out_.blank();
@@ -562,11 +598,11 @@ void Emitter<R>::program() {
                       "one, Image& to) {");
         out_.indent();
         out_.raw_line("scene.take_band(band);");
-        out_.raw_line("return render(scene, one, to);");
+        draw_statement("one", "to");
         out_.dedent();
         out_.raw_line("});");
     } else {
-        out_.raw_line("return render(scene, request, image);");
+        draw_statement("request", "image");
     }
     out_.dedent();
     out_.raw_line("}");
@@ -574,7 +610,10 @@ void Emitter<R>::program() {
     if (draws_aovs_) {
         out_.raw_line("bool draw_layers(const RenderRequest& request, AovImage& image) {");
         out_.indent();
-        out_.raw_line("return draw_aovs(scene, request, image);");
+        out_.raw_line(
+            scene_.traits.raster
+                ? "return draw_raster_aovs(scene, raster_model(scene, request.settings), request, image);"
+                : "return draw_aovs(scene, request, image);");
         out_.dedent();
         out_.raw_line("}");
         out_.blank();
@@ -590,13 +629,8 @@ void Emitter<R>::program() {
     out_.line("static constexpr const char* features[] = {{{}nullptr}};", features);
     std::string facts;
     if (in_code_) {
-        const runtime::RenderSettings& s = scene_.settings;
         facts = fmt::format(
-            ", .scene = {}, .settings = {{{}, {}, {}, {}, {}, PixelPoint::{}, Sampler::{}, PixelFilter::{}, "
-            "{}}}{}",
-            quote(Language::cpp, scene_.name), s.width, s.height, s.samples, s.depth, literal(s.shadows),
-            word(runtime::pixel_point_names, s.point), word(runtime::sampler_names, s.sampler),
-            word(runtime::filter_names, s.filter), literal(s.adaptive),
+            ", .scene = {}, .settings = {}{}", quote(Language::cpp, scene_.name), literal(scene_.settings),
             !has_values() ? "" : ", .values = scene_values, .values_size = sizeof scene_values");
     } else if (parameters_ != nullptr) {
         facts = fmt::format(", .redefine = scc::compiler::redefine, .structure = \"{}\"", structure_);
@@ -637,7 +671,9 @@ CppProgram Emitter<R>::emit() {
     if (has_bands()) {
         out_.raw_line("#include \"runtime/bands.h\"");
     }
-    if (draws_aovs_) {
+    if (scene_.traits.raster) {
+        out_.raw_line("#include \"runtime/raster/draw.h\"");
+    } else if (draws_aovs_) {
         out_.raw_line("#include \"runtime/draw_aovs.h\"");
     }
     if (parameters_ != nullptr) {

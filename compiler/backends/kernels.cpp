@@ -1,5 +1,6 @@
 #include "compiler/backends/kernels.h"
 
+#include "compiler/backends/raster_kernel.h"
 #include "compiler/backends/render_kernel.h"
 #include "runtime/host/options.h"
 #include "runtime/host/program.h"
@@ -11,17 +12,25 @@
 namespace scc::compiler {
 
 std::vector<KernelSet> usable_kernels() {
-    std::vector<KernelSet> usable{
-        {"baseline", host::compiled_isa, scc_render_float_baseline, scc_render_double_baseline}};
+    std::vector<KernelSet> usable{{"baseline",
+                                   host::compiled_isa,
+                                   {scc_render_float_baseline, scc_raster_float_baseline},
+                                   {scc_render_double_baseline, scc_raster_double_baseline}}};
 #if SCC_AVX_KERNELS
     // What compiler/CMakeLists.txt has them compiled for.
     if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
         __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("popcnt")) {
-        usable.push_back({"avx2", "avx2", scc_render_float_avx2, scc_render_double_avx2});
+        usable.push_back({"avx2",
+                          "avx2",
+                          {scc_render_float_avx2, scc_raster_float_avx2},
+                          {scc_render_double_avx2, scc_raster_double_avx2}});
         if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512cd") &&
             __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
             __builtin_cpu_supports("avx512vl")) {
-            usable.push_back({"avx512", "avx512", scc_render_float_avx512, scc_render_double_avx512});
+            usable.push_back({"avx512",
+                              "avx512",
+                              {scc_render_float_avx512, scc_raster_float_avx512},
+                              {scc_render_double_avx512, scc_raster_double_avx512}});
         }
     }
 #endif

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "runtime/image.h"
+#include "runtime/raster/model.h"
 #include "runtime/render_request.h"
 #include "runtime/scene.h"
 
@@ -14,14 +15,25 @@ template <class R>
 using Kernel = void (*)(const runtime::DynamicScene<R>&, const runtime::RenderRequest&, runtime::Image&,
                         runtime::RenderResult&);
 
+template <class R>
+using RasterKernel = void (*)(const runtime::DynamicScene<R>&, const runtime::RasterModel<R>&,
+                              const runtime::RenderRequest&, runtime::Image&, runtime::RenderResult&);
+
+/// Of one precision.
+template <class R>
+struct Kernels {
+    Kernel<R> ray;
+    RasterKernel<R> raster;
+};
+
 struct KernelSet {
     std::string_view name; ///< as SCC_ISA has it
     const char* isa;       ///< as the statistics have it
-    Kernel<float> single;
-    Kernel<double> full;
+    Kernels<float> single;
+    Kernels<double> full;
 
-    Kernel<float> of(float) const { return single; }
-    Kernel<double> of(double) const { return full; }
+    Kernels<float> of(float) const { return single; }
+    Kernels<double> of(double) const { return full; }
 };
 
 /// Those in this program that this machine can run, the fastest last. They draw the same bits.

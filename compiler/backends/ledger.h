@@ -18,6 +18,7 @@ struct LedgerEntry {
     std::string how;     ///< by which means; for a dropped feature, why
     double bound = 0;    ///< of an approximation: largest error in the unit that `how` states
     bool is_refined_mesh = false; ///< it went there as a mesh, refined to that bound
+    bool is_differenced = false;  ///< the other renderer takes slopes by differences
 };
 
 using Ledger = std::vector<LedgerEntry>;

@@ -10,6 +10,7 @@
 #include "compiler/bounds.h"
 #include "compiler/field_bounds.h"
 #include "compiler/ir/objects.h"
+#include "compiler/resolve_bumps.h"
 #include "compiler/resolve_uv.h"
 #include "compiler/writer.h"
 
@@ -33,8 +34,8 @@ class PovExport {
 public:
     PovExport(const ir::Scene& scene, Ledger& ledger, ExportFiles& files, const lang::SourceSet* sources)
         : scene_(scene), ledger_(ledger), sources_(sources), frame_(choose_frame(scene)),
-          in_union_(needs_object_union(scene)), materials_(scene, files, functions_, textures_, ledger),
-          files_(files) {}
+          in_union_(needs_object_union(scene)),
+          materials_(scene, frame_.scale, files, functions_, textures_, ledger), files_(files) {}
 
     std::string run() {
         emit_camera();
@@ -164,7 +165,7 @@ private:
                  "POV-Ray's own focal blur is another lens (4e-2 off, root mean square, at 500 points)");
         }
         if (scene_.settings.point == runtime::PixelPoint::corner) {
-            note(windowed ? Fidelity::exact : Fidelity::dropped, "sampling", "render", scene_.sampling_span,
+            note(windowed ? Fidelity::exact : Fidelity::dropped, "sampling", "render", scene_.method_span,
                  windowed ? "the window is shifted by half a pixel"
                           : "POV-Ray's spherical camera has no latitudes but those around its direction");
         }
@@ -525,11 +526,23 @@ private:
 
 std::string emit_pov(const ir::Scene& scene, Ledger& ledger, ExportFiles& files,
                      const lang::SourceSet* sources) {
-    if (!scene.traits.uv) {
-        return PovExport(scene, ledger, files, sources).run();
+    std::optional<ir::Scene> resolved;
+    if (scene.traits.uv) {
+        resolved = resolve_uv(scene);
     }
-    const ir::Scene resolved = resolve_uv(scene);
-    return PovExport(resolved, ledger, files, sources).run();
+    if (scene.traits.bump) {
+        ResolvedBumps bumps = resolve_bumps(resolved ? *resolved : scene, BumpForm::height_along_surface);
+        for (const std::uint32_t material : bumps.flat) {
+            const ir::Material& flat = bumps.scene.materials[material];
+            ledger.push_back(
+                {Fidelity::dropped, "phong bump", flat.name, flat.span,
+                 "POV-Ray's normals know no tangents; the compiler has none of a mesh, nor of a field "
+                 "with `noise`",
+                 0});
+        }
+        resolved = std::move(bumps.scene);
+    }
+    return PovExport(resolved ? *resolved : scene, ledger, files, sources).run();
 }
 
 } // namespace scc::compiler

@@ -316,10 +316,8 @@ PovFunctions::Scaled PovFunctions::scaled(std::int32_t index, std::uint32_t node
                              : Scaled{"0", cut.min, cut.min};
 }
 
-std::pair<Paint, Outcome> PovFunctions::paint(std::int32_t index, const Place& place) {
+Outcome PovFunctions::outcome_of(std::int32_t index) {
     const ir::Function& function = functions_[static_cast<std::size_t>(index)];
-    Paint paint;
-    paint.function = index;
     Outcome outcome{Fidelity::exact, "as an SDL function", 0};
     if (!words(index).functions.empty()) {
         outcome = {
@@ -334,6 +332,20 @@ std::pair<Paint, Outcome> PovFunctions::paint(std::int32_t index, const Place& p
                        std::max(outcome.bound, error)};
         }
     }
+    return outcome;
+}
+
+std::pair<PovFunctions::Scaled, Outcome> PovFunctions::scaled_number(std::int32_t index, const Place& place) {
+    Outcome outcome = outcome_of(index);
+    Scaled value = scaled(index, functions_[static_cast<std::size_t>(index)].results[0], "", place, outcome);
+    return {std::move(value), std::move(outcome)};
+}
+
+std::pair<Paint, Outcome> PovFunctions::paint(std::int32_t index, const Place& place) {
+    const ir::Function& function = functions_[static_cast<std::size_t>(index)];
+    Paint paint;
+    paint.function = index;
+    Outcome outcome = outcome_of(index);
     std::vector<double> middle;
     if (const auto one = one_variable(function)) {
         const Scaled t = scaled(index, one->t, "", place, outcome);

@@ -39,6 +39,7 @@ struct Outcome {
     Fidelity fidelity = Fidelity::exact;
     std::string how;
     double bound = 0;
+    bool is_differenced = false; ///< as LedgerEntry has it
 };
 
 /// Per-point functions as SDL functions, each declared when it is first used.
@@ -62,6 +63,13 @@ public:
     };
     std::pair<Paint, Outcome> paint(std::int32_t function, const Place& place);
 
+    struct Scaled {
+        std::string t; ///< an expression of x, y, z with values in 0..1, which stand for low to high
+        double low = 0, high = 0;
+    };
+    /// Of a function with one result.
+    std::pair<Scaled, Outcome> scaled_number(std::int32_t function, const Place& place);
+
     struct Declared {
         std::string name; ///< empty: it cannot be written, for this reason:
         std::string obstacle;
@@ -73,12 +81,9 @@ public:
     }
 
 private:
-    struct Scaled {
-        std::string t;
-        double low = 0, high = 0;
-    };
-
     const PovExpression::Words& words(std::int32_t function);
+    /// What its words cost.
+    Outcome outcome_of(std::int32_t function);
     const Declared& declare(std::int32_t function, std::uint32_t node, std::string_view suffix);
     Scaled scaled(std::int32_t function, std::uint32_t node, std::string_view suffix, const Place& place,
                   Outcome& outcome);

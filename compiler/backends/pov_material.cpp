@@ -21,6 +21,13 @@ constexpr double largest_color = 8;
 constexpr double largest_shininess = 1e5;
 constexpr std::string_view uv_and_point =
     "POV-Ray maps a texture by uv or by the point, and this material reads both";
+/// Values of heights beyond are cut where they have no bounds.
+constexpr double largest_height = 1000;
+/// The differences that POV-Ray's normals are made of, in its units. Their own
+/// error grows with it, while that of rounding falls, which was measured to be at most 9e-10 of the heights'
+/// range over the difference.
+constexpr double bump_delta = 6.4e-6;
+constexpr double bump_rounding = 1e-9;
 /// Stands for one that POV-Ray cannot calculate.
 constexpr double usual_shininess = 32;
 
@@ -30,12 +37,20 @@ void include(InputRanges& all, const InputRanges& more) {
     }
 }
 
+bool bends_sharply(const ir::Function& height) {
+    return std::any_of(height.nodes.begin(), height.nodes.end(), [](const ir::Node& node) {
+        return node.kind == ir::Node::Kind::image ||
+               (node.kind == ir::Node::Kind::apply &&
+                (node.op == ir::Op::noise || node.op == ir::Op::random));
+    });
+}
+
 } // namespace
 
-PovMaterials::PovMaterials(const ir::Scene& scene, ExportFiles& files, Writer& functions, Writer& textures,
-                           Ledger& ledger)
-    : scene_(scene), functions_(scene.functions, files, functions), textures_(textures), ledger_(ledger),
-      ranges_(scene.materials.size()), noted_(scene.materials.size()) {
+PovMaterials::PovMaterials(const ir::Scene& scene, double scale, ExportFiles& files, Writer& functions,
+                           Writer& textures, Ledger& ledger)
+    : scene_(scene), scale_(scale), functions_(scene.functions, files, functions), textures_(textures),
+      ledger_(ledger), ranges_(scene.materials.size()), noted_(scene.materials.size()) {
     constexpr double inf = std::numeric_limits<double>::infinity();
     for (InputRanges& ranges : ranges_) {
         ranges.fill({inf, -inf});
@@ -89,6 +104,9 @@ PovMaterials::Use PovMaterials::declare(std::uint32_t material, const std::strin
     painted.transmit = color(phong.transmit, "transmit", material, world_from_object);
     painted.fresnel = phong.fresnel;
     painted.shininess = shininess(phong.shininess, material, world_from_object);
+    if (phong.bump != runtime::no_function) {
+        painted.normal = normal(phong.bump, material, world_from_object);
+    }
     if (!has_writable_highlight(painted)) {
         painted.specular = {};
         note(material, "phong specular",
@@ -128,6 +146,38 @@ Paint PovMaterials::shininess(const runtime::Varying<double>& value, std::uint32
     return {{constant, constant, constant}, {}, false, runtime::no_function};
 }
 
+/// POV-Ray subtracts 5 a (0.02 / delta) times the sum of h(p + delta v) v over the corners v of a regular
+/// tetrahedron: 2/15 a times the gradient of h. Without no_bump_scale it would do so to normals of unit
+/// length in the object's space, and not to what the object's transform makes of the world's. Its world is
+/// `scale_` times as large, and so are heights.
+std::string PovMaterials::normal(std::int32_t bump, std::uint32_t material,
+                                 const Affine<double>* world_from_object) {
+    auto [height, outcome] =
+        functions_.scaled_number(bump, {ranges_[material], largest_height, world_from_object, {}});
+    const double range = height.high - height.low, delta = bump_delta / scale_;
+    const bool dropped = outcome.fidelity == Fidelity::dropped;
+    if (dropped) {
+        outcome.how = "the surface stays smooth: " + outcome.how;
+    } else {
+        const bool bends = bends_sharply(scene_.functions[static_cast<std::size_t>(bump)]);
+        outcome.fidelity = Fidelity::approximated;
+        outcome.how =
+            fmt::format("normals from differences over {}, {}; {}", number(delta),
+                        bends ? "coarse where an image or noise bends within it, bound in radiance at "
+                                "such pixels"
+                              : "bound of their rounding",
+                        outcome.how);
+        outcome.bound = bends ? 1 : std::max(outcome.bound, bump_rounding * range / delta);
+        outcome.is_differenced = bends;
+    }
+    outcome.how =
+        fmt::format("function `{}`: {}", scene_.functions[static_cast<std::size_t>(bump)].name, outcome.how);
+    note(material, "phong bump", outcome);
+    return dropped ? ""
+                   : fmt::format("normal {{ function {{ {} }} {} accuracy {} no_bump_scale }}", height.t,
+                                 number(7.5 * range * scale_), number(delta));
+}
+
 std::pair<Paint, Fidelity> PovMaterials::paint(std::int32_t function, std::string_view field,
                                                std::uint32_t material, double largest,
                                                const Affine<double>* world_from_object) {
@@ -145,6 +195,7 @@ void PovMaterials::note(std::uint32_t material, std::string_view feature, const 
         const ir::Material& m = scene_.materials[material];
         ledger_.push_back(
             {outcome.fidelity, std::string(feature), m.name, m.span, outcome.how, outcome.bound});
+        ledger_.back().is_differenced = outcome.is_differenced;
     }
 }
 

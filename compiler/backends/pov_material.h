@@ -18,8 +18,9 @@ namespace scc::compiler {
 class PovMaterials {
 public:
     /// Only on meshes do the materials' functions read uv (see resolve_uv.h).
-    PovMaterials(const ir::Scene& scene, ExportFiles& files, Writer& functions, Writer& textures,
-                 Ledger& ledger);
+    /// `scale`: by which the world is written larger (see pov_frame.h).
+    PovMaterials(const ir::Scene& scene, double scale, ExportFiles& files, Writer& functions,
+                 Writer& textures, Ledger& ledger);
 
     struct Use {
         std::string texture;
@@ -38,11 +39,14 @@ private:
                 std::uint32_t material, const runtime::Affine<double>* world_from_object);
     Paint shininess(const runtime::Varying<double>& value, std::uint32_t material,
                     const runtime::Affine<double>* world_from_object);
+    std::string normal(std::int32_t bump, std::uint32_t material,
+                       const runtime::Affine<double>* world_from_object);
     std::pair<Paint, Fidelity> paint(std::int32_t function, std::string_view field, std::uint32_t material,
                                      double largest, const runtime::Affine<double>* world_from_object);
     void note(std::uint32_t material, std::string_view feature, const Outcome& outcome);
 
     const ir::Scene& scene_;
+    double scale_;
     PovFunctions functions_;
     PovTextures textures_;
     Ledger& ledger_;

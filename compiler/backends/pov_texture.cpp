@@ -168,9 +168,16 @@ std::string body_finish(const Body& body, double gain) {
     return text;
 }
 
-std::string layer_text(const std::string& pigment_text, const std::string& finish_text) {
-    return finish_text.empty() ? block("texture", {pigment_text})
-                               : block("texture", {pigment_text, fmt::format("finish {{{} }}", finish_text)});
+std::string layer_text(const PaintedPhong& phong, const std::string& pigment_text,
+                       const std::string& finish_text) {
+    std::vector<std::string> items{pigment_text};
+    if (!phong.normal.empty()) {
+        items.push_back(phong.normal);
+    }
+    if (!finish_text.empty()) {
+        items.push_back(fmt::format("finish {{{} }}", finish_text));
+    }
+    return block("texture", items);
 }
 
 std::string reflection(const PaintedPhong& phong) {
@@ -195,7 +202,7 @@ std::vector<std::string> clear_layers(const PaintedPhong& phong, const std::stri
     if (has_equal_channels(phong.specular)) {
         const bool shines = is_top && !phong.specular.is_black();
         const std::string shine = shines ? highlight(phong.specular.constant.r, roughness) : "";
-        return {layer_text(pigment(phong.transmit, gain, Layer::filter), shine + mirror)};
+        return {layer_text(phong, pigment(phong.transmit, gain, Layer::filter), shine + mirror)};
     }
     const Color filter = filter_of(phong.specular.constant);
     const Color& transmit = phong.transmit.constant;
@@ -203,12 +210,12 @@ std::vector<std::string> clear_layers(const PaintedPhong& phong, const std::stri
     const std::string shine = highlight(1, roughness);
     std::vector<std::string> layers;
     if (phong.fresnel) {
-        layers.push_back(layer_text(pigment(below, 1, Layer::filter), mirror));
-        layers.push_back(layer_text(pigment(Paint{white, {}}, 1, Layer::filter), shine));
+        layers.push_back(layer_text(phong, pigment(below, 1, Layer::filter), mirror));
+        layers.push_back(layer_text(phong, pigment(Paint{white, {}}, 1, Layer::filter), shine));
     } else {
-        layers.push_back(layer_text(pigment(below, 1, Layer::filter), shine + mirror));
+        layers.push_back(layer_text(phong, pigment(below, 1, Layer::filter), shine + mirror));
     }
-    layers.push_back(layer_text(pigment(Paint{filter, {}}, gain, Layer::filter), ""));
+    layers.push_back(layer_text(phong, pigment(Paint{filter, {}}, gain, Layer::filter), ""));
     return layers;
 }
 
@@ -227,8 +234,8 @@ std::vector<std::string> layers_of(const PaintedPhong& phong, const std::string&
     if (transparent) {
         layers = clear_layers(phong, roughness, gain_below, bodies.empty());
     } else if (colored_highlight) {
-        layers.push_back(layer_text(pigment(Paint{}, 1, Layer::opaque), highlight(1, roughness)));
-        layers.push_back(layer_text(pigment(phong.specular, gain_below, Layer::filter), ""));
+        layers.push_back(layer_text(phong, pigment(Paint{}, 1, Layer::opaque), highlight(1, roughness)));
+        layers.push_back(layer_text(phong, pigment(phong.specular, gain_below, Layer::filter), ""));
     }
     for (std::size_t above = bodies.size(); above-- > 0;) {
         const bool bottom = above + 1 == bodies.size() && !colored_highlight && !transparent;
@@ -241,7 +248,7 @@ std::vector<std::string> layers_of(const PaintedPhong& phong, const std::string&
             finish += reflection(phong);
         }
         layers.push_back(
-            layer_text(pigment(bodies[above].paint, 1, bottom ? Layer::opaque : Layer::half), finish));
+            layer_text(phong, pigment(bodies[above].paint, 1, bottom ? Layer::opaque : Layer::half), finish));
     }
     return layers;
 }

@@ -11,6 +11,7 @@ namespace scc::compiler {
 /// L7, L9, L15 and transparency with every field constant or a paint.
 struct PaintedPhong {
     Paint ambient, diffuse, specular, emission, reflect, transmit, shininess;
+    std::string normal;   ///< the block that tilts it; empty: none does
     bool fresnel = false; ///< of glass, which is without a colour of its own
 };
 

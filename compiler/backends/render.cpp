@@ -5,6 +5,7 @@
 #include "compiler/backends/looking_kernel.h"
 #include "compiler/backends/needs_double.h"
 #include "compiler/backends/precision_trial.h"
+#include "compiler/backends/raster_scene.h"
 #include "compiler/backends/tables.h"
 #include "compiler/ir/traits.h"
 #include "compiler/mesh_cache.h"
@@ -101,6 +102,7 @@ std::shared_ptr<OwnedScene<R>> build(const ir::Scene& scene, std::shared_ptr<con
     for (const ir::Function& function : scene.functions) {
         out.functions.push_back(program_of<R>(function));
     }
+    out.line_segments = line_segments_of<R>(scene);
     out.reads_uv = scene.traits.uv;
     out.camera = convert(scene.camera, R{});
     out.ambient = convert(scene.ambient, R{});
@@ -110,11 +112,17 @@ std::shared_ptr<OwnedScene<R>> build(const ir::Scene& scene, std::shared_ptr<con
 }
 
 template <class R>
-runtime::RenderResult render(OwnedScene<R>& owned, Kernel<R> kernel, const runtime::RenderRequest& request,
-                             runtime::Image& image) {
+runtime::RenderResult render(OwnedScene<R>& owned, const Kernels<R>& kernels,
+                             const runtime::RenderRequest& request, runtime::Image& image) {
+    const bool is_raster = request.settings.method == runtime::Method::raster;
+    const auto model = is_raster ? raster_model_of(owned.scene, request.settings) : runtime::RasterModel<R>{};
     const auto draw = [&](const runtime::RenderRequest& one, runtime::Image& to) {
         runtime::RenderResult result;
-        kernel(owned.scene, one, to, result);
+        if (is_raster) {
+            kernels.raster(owned.scene, model, one, to, result);
+        } else {
+            kernels.ray(owned.scene, one, to, result);
+        }
         return result;
     };
     const Bands<R>& bands = owned.bands;
@@ -170,11 +178,13 @@ template <class R>
 Renderer make_renderer(const ir::Scene& scene, const std::shared_ptr<const Meshes>& meshes,
                        const KernelSet& kernels, const runtime::BuildOptions& options) {
     const std::shared_ptr<OwnedScene<R>> owned = build<R>(scene, meshes, options);
-    return {[owned, kernel = kernels.of(R{})](const runtime::RenderRequest& request, runtime::Image& image) {
-                return render(*owned, kernel, request, image);
+    return {[owned, own = kernels.of(R{})](const runtime::RenderRequest& request, runtime::Image& image) {
+                return render(*owned, own, request, image);
             },
             [owned](const runtime::RenderRequest& request, runtime::AovImage& to) {
-                return draw_aovs(owned->scene, request, to);
+                return request.settings.method == runtime::Method::raster
+                           ? raster_aovs_of(owned->scene, request, to)
+                           : draw_aovs(owned->scene, request, to);
             }};
 }
 Renderer make_renderer(Precision precision, const ir::Scene& scene,
@@ -270,6 +280,12 @@ PrecisionChoice choose_precision_for_8_bits(const ir::Scene& scene, const runtim
     const host::Drawable drawable = make_drawable_for_8_bits(scene, settings, options);
     const bool single = drawable.precision == name_of(Precision::single);
     return {single ? Precision::single : Precision::full, drawable.precision_reason};
+}
+
+void with_tables(const ir::Scene& scene,
+                 const std::function<void(const runtime::DynamicScene<double>&)>& use) {
+    const runtime::BuildOptions options;
+    use(build<double>(scene, build_meshes(scene, options), options)->scene);
 }
 
 ExplainedPixel explain_pixel(const ir::Scene& scene, Precision precision,

@@ -6,6 +6,8 @@
 #include "runtime/explanation.h"
 #include "runtime/host/draw.h"
 
+#include <functional>
+
 namespace scc::compiler {
 
 /// The scene in the generic renderer's tables, hierarchies built, ready to be drawn in this process as long
@@ -22,6 +24,10 @@ host::Drawable make_drawable_for_8_bits(const ir::Scene& scene, const runtime::R
 /// The choice alone.
 PrecisionChoice choose_precision_for_8_bits(const ir::Scene& scene, const runtime::RenderSettings& settings,
                                             const runtime::BuildOptions& options);
+
+/// The scene in the generic renderer's tables while `use` runs, for others that read them.
+void with_tables(const ir::Scene& scene,
+                 const std::function<void(const runtime::DynamicScene<double>&)>& use);
 
 /// A pixel, from the top left corner of the picture, and one of its n x n samples.
 struct PixelPlace {

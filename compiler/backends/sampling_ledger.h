@@ -5,8 +5,8 @@
 
 namespace scc::compiler {
 
-/// What becomes of samplers, filters and adaptive sampling in an export, which has one ray per pixel: the
-/// same for every renderer.
+/// What becomes of samplers, filters, adaptive sampling and raster mode in an export, which has one ray per
+/// pixel: the same for every renderer.
 void record_sampling(const ir::Scene& scene, Ledger& ledger);
 
 } // namespace scc::compiler

@@ -52,9 +52,16 @@ auto convert(const runtime::Varying<T>& v, R real) -> runtime::Varying<decltype(
 
 template <class R>
 runtime::Phong<R> convert(const runtime::Phong<double>& p, R real) {
-    return {convert(p.ambient, real),   convert(p.diffuse, real), convert(p.specular, real),
-            convert(p.emission, real),  convert(p.reflect, real), convert(p.transmit, real),
-            convert(p.shininess, real), convert(p.ior, real),     p.fresnel};
+    return {convert(p.ambient, real),
+            convert(p.diffuse, real),
+            convert(p.specular, real),
+            convert(p.emission, real),
+            convert(p.reflect, real),
+            convert(p.transmit, real),
+            convert(p.shininess, real),
+            convert(p.ior, real),
+            p.fresnel,
+            p.bump};
 }
 template <class R>
 runtime::PointLight<R> convert(const runtime::PointLight<double>& l, R real) {
@@ -87,7 +94,21 @@ runtime::Camera<R> convert(const runtime::Camera<double>& c, R real) {
             convert(c.shift_y, real),
             convert(c.half_width, real),
             convert(c.lens_radius, real),
-            convert(c.focus, real)};
+            convert(c.focus, real),
+            convert(c.near, real),
+            convert(c.far, real)};
+}
+
+template <class R>
+std::vector<runtime::LineSegment<R>> line_segments_of(const ir::Scene& scene) {
+    std::vector<runtime::LineSegment<R>> segments;
+    for (const ir::Polyline& line : scene.polylines) {
+        for (std::size_t i = 1; i < line.points.size(); ++i) {
+            segments.push_back({convert(line.points[i - 1], R{}), convert(line.points[i], R{}),
+                                convert(line.color, R{}), static_cast<R>(line.width)});
+        }
+    }
+    return segments;
 }
 
 /// A described shape, member by member.

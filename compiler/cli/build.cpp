@@ -34,7 +34,8 @@ struct Options {
 
     NativeOptions native;
     bool draws_aovs = false;
-    std::string report; ///< "text", "json" or empty
+    std::string depfile; ///< empty: none
+    std::string report;  ///< "text", "json" or empty
 };
 
 Stage stage_for(Emit emit) {
@@ -90,9 +91,35 @@ void emit_program(const Loaded& loaded, const Options& options) {
     }
 }
 
+/// A file name in a rule of Make.
+std::string make_name(const std::string& name) {
+    std::string escaped;
+    for (const char c : name) {
+        if (c == ' ' || c == '\t' || c == '#' || c == '\\') {
+            escaped += '\\';
+        }
+        escaped += c == '$' ? "$$" : std::string(1, c);
+    }
+    return escaped;
+}
+
+/// What the output is made from, for Make; as of GCC's -MP, each file is a target of its own, so that one
+/// that has gone is no error.
+void write_depfile(const Loaded& loaded, const Options& options) {
+    std::string rule = make_name(options.output) + ": " + make_name(options.scene.file), targets;
+    for (const fs::path& file : *loaded.assets) {
+        rule += " \\\n  " + make_name(file.string());
+        targets += "\n" + make_name(file.string()) + ":\n";
+    }
+    host::replace_file(options.depfile, rule + "\n" + targets);
+}
+
 int build(const Options& options) {
     if (!options.report.empty() && options.emit != Emit::exe) {
         throw host::UsageError("`--report` is about the program: leave out `--emit`");
+    }
+    if (!options.depfile.empty() && options.output == "-") {
+        throw host::UsageError("`-d` is about a file: give `-o` a file name");
     }
     const Loaded loaded = load(options.scene, stage_for(options.emit));
     if (!report(loaded)) {
@@ -114,6 +141,9 @@ int build(const Options& options) {
     case Emit::exe:
         emit_program(loaded, options);
         break;
+    }
+    if (!options.depfile.empty()) {
+        write_depfile(loaded, options);
     }
     return host::exit_fine;
 }
@@ -155,6 +185,10 @@ void add_build(CLI::App& app, Run& selected) {
         ->add_flag("--report{text}", options->report,
                    "say what the program holds and leaves out, and what that saves; --report=json: as JSON")
         ->check(CLI::IsMember({"text", "json"}));
+    command
+        ->add_option("-d,--depfile", options->depfile,
+                     "write what PROG depends on here, for Make: the scene, its imports, meshes and images")
+        ->type_name("DEPFILE");
     command->add_flag("--aov", options->draws_aovs,
                       "the program can draw AOVs: it takes `--aov`, as `scc render` does");
     command->add_flag_callback(

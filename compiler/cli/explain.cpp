@@ -52,8 +52,8 @@ int explain(const ExplainOptions& options) {
     if (chapters == 0) {
         throw host::UsageError("there is nothing to explain: give `--pixel X,Y`, `--matrices` or `--needs`");
     }
-    if (options.json && (chapters > 1 || options.pixel)) {
-        throw host::UsageError("`--json` is of `--matrices` or `--needs`, one at a time");
+    if (options.json && chapters > 1) {
+        throw host::UsageError("`--json` is of `--pixel`, `--matrices` or `--needs`, one at a time");
     }
     std::string text;
     if (options.matrices) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "compiler/backends/render.h"
 #include "compiler/cli/commands.h"
 #include "runtime/math/vec.h"
 
@@ -27,5 +28,9 @@ std::string explain_matrices(const Loaded& loaded, const ExplainOptions& options
 std::string explain_needs(const Loaded& loaded, const ExplainOptions& options);
 /// L11 to L15 for one pixel. Throws host::UsageError for a pixel or sample that the picture does not have.
 std::string explain_pixel(const Loaded& loaded, const ExplainOptions& options);
+/// The same as JSON; numbers that are not finite are null.
+std::string pixel_json(const Loaded& loaded, const runtime::RenderSettings& settings,
+                       const compiler::PixelPlace& place, const compiler::PrecisionChoice& precision,
+                       const compiler::ExplainedPixel& explained);
 
 } // namespace scc::cli

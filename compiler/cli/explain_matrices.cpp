@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace scc::cli {
@@ -203,15 +205,148 @@ Journey journey_of(const Stages& s, const Vec3<double>& p) {
     return j;
 }
 
-/// The outcode of L5.
-std::string outside(const Vec4& clip) {
-    static constexpr std::array<const char*, 6> names{"L", "R", "B", "T", "N", "F"};
-    std::string code;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        code += clip[axis] < -clip[3] ? names[2 * axis] : clip[axis] > clip[3] ? names[2 * axis + 1] : "";
+// ---- clipping (L5) -------------------------------------------------------------------------------------
+
+constexpr std::array<const char*, 6> plane_names{"L", "R", "B", "T", "N", "F"};
+
+/// Of clip coordinates, from L, R, B, T, N, F: negative beyond the plane.
+double inside(std::size_t plane, const Vec4& clip) {
+    return clip[3] + (plane % 2 == 0 ? clip[plane / 2] : -clip[plane / 2]);
+}
+
+using Outcode = std::array<bool, 6>;
+Outcode outcode(const Vec4& clip) {
+    Outcode code{};
+    for (std::size_t plane = 0; plane < code.size(); ++plane) {
+        code[plane] = inside(plane, clip) < 0;
     }
     return code;
 }
+std::string outside(const Vec4& clip) {
+    std::string names;
+    const Outcode code = outcode(clip);
+    for (std::size_t plane = 0; plane < code.size(); ++plane) {
+        names += code[plane] ? plane_names[plane] : "";
+    }
+    return names;
+}
+
+/// A straight piece of a line and what is left of it.
+struct ClippedLine {
+    std::string place;
+    Vec4 from, to;
+    Outcode code_from, code_to, both, any;
+    double first = 0, last = 1;                       ///< the part inside
+    std::vector<std::pair<std::size_t, double>> cuts; ///< a plane, and at which part of the line
+
+    bool is_rejected() const { return std::find(both.begin(), both.end(), true) != both.end(); }
+    bool is_accepted() const { return std::find(any.begin(), any.end(), true) == any.end(); }
+    bool is_empty() const { return is_rejected() || !(first < last); }
+    Vec4 at(double part) const {
+        Vec4 point{};
+        for (std::size_t i = 0; i < point.size(); ++i) {
+            point[i] = from[i] + part * (to[i] - from[i]);
+        }
+        return point;
+    }
+};
+
+ClippedLine clip_line(std::string place, const Vec4& from, const Vec4& to) {
+    ClippedLine line{std::move(place), from, to, outcode(from), outcode(to), {}, {}, 0, 1, {}};
+    for (std::size_t plane = 0; plane < line.any.size(); ++plane) {
+        line.both[plane] = line.code_from[plane] && line.code_to[plane];
+        line.any[plane] = line.code_from[plane] || line.code_to[plane];
+        if (!line.any[plane] || line.both[plane]) {
+            continue;
+        }
+        const double a = inside(plane, from), b = inside(plane, to), part = a / (a - b);
+        line.cuts.emplace_back(plane, part);
+        (a < 0 ? line.first : line.last) = a < 0 ? std::max(line.first, part) : std::min(line.last, part);
+    }
+    return line;
+}
+
+std::vector<ClippedLine> clipped_lines(const Loaded& loaded, const Matrix& clip_from_world) {
+    std::vector<ClippedLine> lines;
+    for (const compiler::ir::Polyline& polyline : loaded.scene.polylines) {
+        const auto clip = [&](const Vec3<double>& p) {
+            return product(clip_from_world, Vec4{p.x, p.y, p.z, 1});
+        };
+        for (std::size_t i = 1; i < polyline.points.size(); ++i) {
+            lines.push_back(clip_line(fmt::format("{}, piece {}", place_of(loaded, polyline.span), i - 1),
+                                      clip(polyline.points[i - 1]), clip(polyline.points[i])));
+        }
+    }
+    return lines;
+}
+
+std::string text(const Outcode& code) {
+    std::string bits;
+    for (const bool bit : code) {
+        bits += bit ? "1 " : "0 ";
+    }
+    return bits;
+}
+
+/// Where a part of the line is in the picture.
+std::string divided(const Vec4& clip) {
+    return text(Vec3<double>{clip[0] / clip[3], clip[1] / clip[3], clip[2] / clip[3]});
+}
+
+constexpr std::size_t most_lines = 24; ///< in text; JSON has all
+
+std::string lines_text(const Loaded& loaded, const Matrix& clip_from_world) {
+    const std::vector<ClippedLine> lines = clipped_lines(loaded, clip_from_world);
+    if (lines.empty()) {
+        return "";
+    }
+    std::string out = "\nLINES (L5): the outcodes of both ends, before the division by w\n";
+    for (std::size_t i = 0; i < std::min(lines.size(), most_lines); ++i) {
+        const ClippedLine& line = lines[i];
+        out += fmt::format("  {}\n            L R B T N F\n", line.place);
+        out += fmt::format("    from    {} {}\n", text(line.code_from), text(line.from));
+        out += fmt::format("    to      {} {}\n", text(line.code_to), text(line.to));
+        out += fmt::format("    and     {}\n    or      {}\n", text(line.both), text(line.any));
+        if (line.is_rejected()) {
+            out += "    trivial reject: both ends are beyond the same plane\n";
+            continue;
+        }
+        if (line.is_accepted()) {
+            out += "    trivial accept: neither end is beyond any plane\n";
+            continue;
+        }
+        for (const auto& [plane, part] : line.cuts) {
+            out += fmt::format("    meets {} at {} of the way\n", plane_names[plane], text(part));
+        }
+        out += line.is_empty()
+                   ? "    nothing of it is inside\n"
+                   : fmt::format("    inside from {} to {}, in NDC from {} to {}\n", text(line.first),
+                                 text(line.last), divided(line.at(line.first)), divided(line.at(line.last)));
+    }
+    if (lines.size() > most_lines) {
+        out += fmt::format("  ... and {} more, which --json has\n", lines.size() - most_lines);
+    }
+    return out;
+}
+
+Json lines_json(const Loaded& loaded, const Matrix& clip_from_world) {
+    Json lines = Json::array();
+    for (const ClippedLine& line : clipped_lines(loaded, clip_from_world)) {
+        Json one{{"line", line.place}, {"from", line.from}, {"to", line.to}};
+        one["outcode_from"] = outside(line.from);
+        one["outcode_to"] = outside(line.to);
+        one["decision"] = line.is_rejected() ? "reject" : line.is_accepted() ? "accept" : "clip";
+        if (!line.is_empty()) {
+            one["inside"] = {line.first, line.last};
+            one["clipped_from"] = line.at(line.first);
+            one["clipped_to"] = line.at(line.last);
+        }
+        lines.push_back(std::move(one));
+    }
+    return lines;
+}
+
+// ---- the chapter ---------------------------------------------------------------------------------------
 
 std::string models_text(const Loaded& loaded) {
     const std::vector<Model> models = models_of(loaded);
@@ -253,7 +388,7 @@ std::string journey_text(const Loaded& loaded, const Journey& j, const std::stri
     out += fmt::format("  NDC       / w = {}\n", text(j.ndc));
     out += fmt::format("  picture   S = column {}, row {} from the top, depth {}\n", text(j.pixel[0]),
                        text(j.pixel[1]), text(j.pixel[2]));
-    const double z = j.camera[2], near = scene.near, far = scene.far;
+    const double z = j.camera[2], near = scene.camera.near, far = scene.camera.far;
     if (scene.camera.projection == runtime::Projection::perspective) {
         out += fmt::format("  By similar triangles (L3): P'y = Py near / -Pz = {} * {} / {} = {}; the plane "
                            "at near reaches to "
@@ -290,7 +425,7 @@ std::string matrices_text(const Loaded& loaded, const Stages& s, const Author& a
     const double aspect = static_cast<double>(width) / height;
     out +=
         fmt::format("\nPROJECTION (L3, L4): camera coordinates to clip coordinates; near = {}, far = {}\n  ",
-                    text(scene.near), text(scene.far));
+                    text(scene.camera.near), text(scene.camera.far));
     out +=
         perspective
             ? fmt::format("half extents at distance 1: H = tan(fov_y / 2) = {}, W = H width / height = {}\n",
@@ -307,7 +442,7 @@ std::string matrices_text(const Loaded& loaded, const Stages& s, const Author& a
            text(s.viewport);
     out += "\nCOMPOSED: world to clip, P V\n" + text(s.clip_from_world);
     out += "\nCOMPOSED: world to the picture, S P V, to be divided by w\n" + text(s.pixel_from_world);
-    return out + "\n" + journey_text(loaded, journey, what);
+    return out + "\n" + journey_text(loaded, journey, what) + lines_text(loaded, s.clip_from_world);
 }
 
 Json json_of(const Matrix& m) {
@@ -332,15 +467,16 @@ std::string matrices_json(const Loaded& loaded, const Stages& s, int width, int 
     const Json json{{"schema", 1},
                     {"scene", loaded.scene.name},
                     {"size", {width, height}},
-                    {"near", loaded.scene.near},
-                    {"far", loaded.scene.far},
+                    {"near", loaded.scene.camera.near},
+                    {"far", loaded.scene.camera.far},
                     {"model", models},
                     {"view", json_of(s.view)},
                     {"projection", json_of(s.projection)},
                     {"viewport", json_of(s.viewport)},
                     {"clip_from_world", json_of(s.clip_from_world)},
                     {"picture_from_world", json_of(s.pixel_from_world)},
-                    {"point", point}};
+                    {"point", point},
+                    {"lines", lines_json(loaded, s.clip_from_world)}};
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -356,7 +492,7 @@ std::string explain_matrices(const Loaded& loaded, const ExplainOptions& options
         options.render.size.value_or(std::pair{scene.settings.width, scene.settings.height});
     const double aspect = static_cast<double>(width) / height;
     Stages s{view_of(scene.camera),
-             projection_of(scene.camera, scene.near, scene.far, aspect),
+             projection_of(scene.camera, scene.camera.near, scene.camera.far, aspect),
              viewport_of(width, height),
              {},
              {}};

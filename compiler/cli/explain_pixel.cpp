@@ -1,8 +1,6 @@
 #include "compiler/backends/render.h"
 #include "compiler/cli/explain.h"
-#include "compiler/cli/needs.h"
-#include "compiler/ir/objects.h"
-#include "compiler/scene_names.h"
+#include "compiler/cli/explain_names.h"
 #include "lang/spectrum.h"
 #include "runtime/host/image_file.h"
 #include "runtime/host/srgb.h"
@@ -14,7 +12,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <numbers>
 #include <variant>
 #include <vector>
@@ -57,49 +54,6 @@ bool same_bits(float a, float b) {
 bool same_bits(const Rgb<float>& a, const Rgb<float>& b) {
     return same_bits(a.r, b.r) && same_bits(a.g, b.g) && same_bits(a.b, b.b);
 }
-
-/// Names of what the renderer knows by number.
-class Names {
-public:
-    explicit Names(const Loaded& loaded)
-        : loaded_(loaded), objects_(compiler::names_of(loaded.scene)),
-          members_(compiler::member_names_of(loaded.scene)) {}
-
-    std::string object(std::uint32_t id) const { return objects_.object(id); }
-    std::string surface(std::uint32_t id, std::uint32_t member) const {
-        return id == member ? object(id) : fmt::format("{}, of {}", members_.at(member), object(id));
-    }
-    std::string material(std::uint32_t index) const {
-        const compiler::ir::Material& material = loaded_.scene.materials[index];
-        const std::string place = place_of(loaded_, material.span);
-        return fmt::format("`{}`{}", material.name, place.empty() ? "" : " (" + place + ")");
-    }
-    std::string light(const LightTerms& terms) const {
-        std::uint32_t count = 0;
-        for (const compiler::ir::Light& light : loaded_.scene.lights) {
-            if (kind_of(light) == terms.kind && count++ == terms.index) {
-                const std::string place = place_of(loaded_, light.span);
-                return fmt::format("`{}`{}{}", light.name,
-                                   terms.kind == LightTerms::Kind::rectangle
-                                       ? fmt::format(", point {} of its grid", terms.part + 1)
-                                       : "",
-                                   place.empty() ? "" : " (" + place + ")");
-            }
-        }
-        return "?";
-    }
-
-private:
-    static LightTerms::Kind kind_of(const compiler::ir::Light& light) {
-        using Kind = LightTerms::Kind;
-        static constexpr std::array kinds{Kind::point, Kind::directional, Kind::spot, Kind::rectangle};
-        return kinds[light.light.index()];
-    }
-
-    const Loaded& loaded_;
-    host::SceneNames objects_;
-    std::map<std::uint32_t, std::string> members_;
-};
 
 /// Writes the rays as they follow from each other, each below the one that it comes from.
 class RayWriter {
@@ -183,7 +137,8 @@ private:
         line(depth + 1, "point {}, exact within +- {}", text(ray.point), text(ray.error));
         line(depth + 1, "m = {}, the normal towards the viewer{}", text(ray.shading_normal),
              length(cross(ray.normal, ray.shading_normal)) > 1e-5
-                 ? fmt::format(" (interpolated; the surface's own is {})", text(ray.normal))
+                 ? fmt::format(" ({}; the surface's own is {})", ray.is_bumped ? "bumped" : "interpolated",
+                               text(ray.normal))
                  : "");
         line(depth + 1, "v = {}, towards the viewer", text(-normalize(ray.dir)));
     }
@@ -399,6 +354,9 @@ std::string sum_text(const compiler::ir::Scene& scene, const runtime::RenderSett
 } // namespace
 
 std::string explain_pixel(const Loaded& loaded, const ExplainOptions& options) {
+    if (loaded.scene.settings.method == runtime::Method::raster) {
+        throw host::UsageError("--pixel follows rays, which a raster picture has not; `--mode ray` does");
+    }
     const compiler::ir::Scene& scene = loaded.scene;
     runtime::RenderRequest request = make_request(options.render, scene.settings);
     const bool is_plain = is_plain_grid(request.settings);
@@ -408,6 +366,9 @@ std::string explain_pixel(const Loaded& loaded, const ExplainOptions& options) {
     const compiler::PrecisionChoice precision = choose_precision(scene, request, options);
     const compiler::ExplainedPixel explained =
         compiler::explain_pixel(scene, precision.precision, settings, place);
+    if (options.json) {
+        return pixel_json(loaded, settings, place, precision, explained);
+    }
     const int n = samples_per_axis(settings);
     std::string out = fmt::format("pixel {},{} of scene `{}`, {} x {} pixels", place.x, place.y, scene.name,
                                   settings.width, settings.height);

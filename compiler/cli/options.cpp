@@ -22,6 +22,14 @@ void add_scene_values(CLI::App& app, SceneOptions& options) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.add_option("--camera", options.camera, "which camera, where the scene has several")
         ->type_name("NAME");
+    app.add_option_function<std::string>(
+           "--mode",
+           [&options](const std::string& mode) {
+               options.method = runtime::choice_of<runtime::Method>(runtime::method_names, mode);
+           },
+           "by rays or by projecting triangles; as the scene's first render says, if it is left out")
+        ->check(CLI::IsMember({"ray", "raster"}))
+        ->type_name("ray|raster");
     app.add_option_function<std::int64_t>(
            "--frame", [&options](std::int64_t frame) { options.frame = frame; },
            "which frame of an animated scene; the first one, if it is left out")

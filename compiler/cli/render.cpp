@@ -25,8 +25,7 @@ namespace {
 struct Options {
     SceneOptions scene;
     host::RenderOptions render;
-    std::optional<compiler::Precision> precision; ///< nothing: auto
-    std::string mode = "ray";
+    std::optional<compiler::Precision> precision;                ///< nothing: auto
     std::optional<std::pair<std::int64_t, std::int64_t>> frames; ///< the last one excluded
     runtime::BuildQuality quality = runtime::BuildQuality::high;
 };
@@ -93,9 +92,6 @@ int render_one(const Options& options) {
 }
 
 int render(Options options) {
-    if (options.mode == "raster") {
-        throw host::UsageError("raster mode is not supported yet; leave out `--mode raster`");
-    }
     if (!options.frames) {
         return render_one(options);
     }
@@ -121,9 +117,6 @@ void add_render(CLI::App& app, Run& selected) {
         *command, options->precision,
         "of the arithmetic; auto (default): float where an 8-bit picture does not show it, else "
         "double");
-    command->add_option("--mode", options->mode, "ray casting (raster is not supported yet)")
-        ->check(CLI::IsMember({"ray", "raster"}))
-        ->type_name("ray|raster");
     command
         ->add_option_function<std::string>(
             "--frames", [options](const std::string& text) { options->frames = parse_frames(text); },

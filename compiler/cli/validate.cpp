@@ -85,6 +85,9 @@ void judge(RendererReport& result, const Subject& subject, double exposure,
         result.budget =
             validation::with_refined_meshes(*result.budget, s.width, s.height, samples_per_axis(s));
     }
+    if (std::any_of(ledger.begin(), ledger.end(), [](const auto& entry) { return entry.is_differenced; })) {
+        result.budget = validation::with_differenced_bumps(*result.budget, s.width, s.height);
+    }
     validation::CompareOptions options;
     options.thresholds = validation::thresholds_for(*result.budget);
     result.metrics = validation::compare(subject.report.reference, result.image, options);
@@ -216,15 +219,78 @@ RendererReport run_exported(const Subject& subject, const std::string& name, dou
     return result;
 }
 
+/// What draws by OpenGL, beside this program or on the path; nothing if it is not installed.
+std::optional<std::string> opengl_program() {
+    std::error_code error;
+    const std::filesystem::path beside =
+        std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / "scc-opengl";
+    return !error && std::filesystem::exists(beside, error) ? beside.string()
+                                                            : validation::find_program("scc-opengl");
+}
+
+RendererReport run_opengl(const Subject& subject, const Options& options, const std::string& file) {
+    RendererReport result;
+    result.renderer = "opengl";
+    if (subject.request.settings.method != runtime::Method::raster) {
+        result.judgement = {Verdict::skipped,
+                            "OpenGL casts no rays; `--mode raster` compares raster pictures"};
+        return result;
+    }
+    const std::optional<std::string> program = opengl_program();
+    if (!program) {
+        result.judgement = {Verdict::skipped,
+                            "scc-opengl is not installed; on Debian, before building scc: apt "
+                            "install libosmesa6-dev"};
+        return result;
+    }
+    const runtime::RenderSettings& s = subject.request.settings;
+    const std::string picture = (subject.folder.path() / "opengl.exr").string();
+    validation::Command command;
+    command.program = *program;
+    command.timeout_seconds = options.timeout_seconds;
+    command.arguments = {file,
+                         "-o",
+                         picture,
+                         "--size",
+                         fmt::format("{}x{}", s.width, s.height),
+                         "--samples",
+                         std::to_string(s.samples)};
+    const auto repeat = [&](const char* option, const std::vector<std::string>& values) {
+        for (const std::string& value : values) {
+            command.arguments.insert(command.arguments.end(), {option, value});
+        }
+    };
+    repeat("-D", options.scene.definitions);
+    repeat("--asset-path", options.scene.asset_paths);
+    if (!options.scene.camera.empty()) {
+        repeat("--camera", {options.scene.camera});
+    }
+    const validation::ProcessResult run = validation::run(command);
+    if (run.end == validation::ProcessEnd::interrupted) {
+        throw Interrupted{};
+    }
+    result.command = "scc-opengl " + file;
+    result.times.total = run.wall_seconds;
+    if (!run.ok()) {
+        const bool unsupported = run.end == validation::ProcessEnd::exited && run.code == host::exit_scene;
+        result.judgement = {unsupported ? Verdict::skipped : Verdict::failed,
+                            unsupported ? run.err : validation::describe(run, command) + "\n" + run.err};
+        return result;
+    }
+    result.image = host::read_image(picture);
+    judge(result, subject, 1);
+    return result;
+}
+
 // ---- the command ---------------------------------------------------------------------------------------
 
 std::vector<std::string> renderers_of(const std::string& list) {
     std::vector<std::string> names;
     std::istringstream stream(list);
     for (std::string name; std::getline(stream, name, ',');) {
-        if (name != "native" && compiler::find_exporter(name) == nullptr) {
-            throw host::UsageError(
-                fmt::format("`{}` is no renderer to compare with; there are pov, blender and native", name));
+        if (name != "native" && name != "opengl" && compiler::find_exporter(name) == nullptr) {
+            throw host::UsageError(fmt::format(
+                "`{}` is no renderer to compare with; there are pov, blender, opengl and native", name));
         }
         names.push_back(name);
     }
@@ -276,7 +342,9 @@ int validate(const Options& options) {
         write_result("-", fmt::format("{}\n", file));
         for (const std::string& name : names) {
             RendererReport result = name == "native" ? run_native(*subject)
-                                                     : run_exported(*subject, name, options.timeout_seconds);
+                                    : name == "opengl"
+                                        ? run_opengl(*subject, options, file)
+                                        : run_exported(*subject, name, options.timeout_seconds);
             write_result("-", summary_line(result));
             const std::pair<std::string, std::string> version{result.renderer, result.version};
             if (!result.version.empty() &&
@@ -307,7 +375,8 @@ void add_validate(CLI::App& app, Run& selected) {
     add_scene_values(*command, options->scene);
     command
         ->add_option("--against", options->against,
-                     "pov, blender, native (the built program); separated by commas")
+                     "pov, blender, opengl (of raster pictures), native (the built program); separated by "
+                     "commas")
         ->capture_default_str()
         ->type_name("LIST");
     command->add_option("--report", options->report, "folder for report.json, index.html and the pictures")

@@ -69,9 +69,9 @@ std::vector<double> iors_of(const Scene& scene, const Object& object) {
     return iors;
 }
 
-std::array<std::int32_t, 7> functions_of(const runtime::Phong<double>& p) {
-    return {p.ambient.function, p.diffuse.function,  p.specular.function, p.emission.function,
-            p.reflect.function, p.transmit.function, p.shininess.function};
+std::array<std::int32_t, 8> functions_of(const runtime::Phong<double>& p) {
+    return {p.ambient.function, p.diffuse.function,  p.specular.function,  p.emission.function,
+            p.reflect.function, p.transmit.function, p.shininess.function, p.bump};
 }
 
 bool material_reads(const Scene& scene, std::uint32_t material, Input first, Input last) {

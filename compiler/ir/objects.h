@@ -25,7 +25,7 @@ std::vector<double> iors_of_solid(const Scene& scene, std::size_t root);
 bool has_mesh(const Scene& scene, const runtime::Csg<double>& solid);
 
 /// Those of the material's fields; runtime::no_function where one is constant.
-std::array<std::int32_t, 7> functions_of(const runtime::Phong<double>& phong);
+std::array<std::int32_t, 8> functions_of(const runtime::Phong<double>& phong);
 
 /// Whether a function of the material reads one of these inputs.
 bool material_reads(const Scene& scene, std::uint32_t material, Input first, Input last);

@@ -95,6 +95,9 @@ void print_phong(Writer& out, const runtime::Phong<double>& p, const Scene& scen
         out.line("{} = {}", field, text(*value, scene));
     }
     out.line("shininess = {}", text(p.shininess, scene));
+    if (p.bump != runtime::no_function) {
+        out.line("bump = {}", text(Varying<double>{0, p.bump}, scene));
+    }
     if (lets_through(p)) {
         out.line("transmit = {}, ior = {}{}", text(p.transmit, scene), p.ior, p.fresnel ? ", fresnel" : "");
     }

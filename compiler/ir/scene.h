@@ -87,6 +87,13 @@ struct CsgNode {
     bool inverted = false;    ///< of a member: an odd number of subtractions takes it away
 };
 
+struct Polyline {
+    std::vector<runtime::Vec3<double>> points; ///< in the world
+    runtime::Rgb<double> color{1, 1, 1};
+    double width = 1; ///< in pixels
+    lang::Span span;
+};
+
 struct LightColors {
     runtime::Rgb<double> diffuse{};
     runtime::Rgb<double> specular{};
@@ -109,10 +116,10 @@ struct Scene {
     std::vector<Object> members;     ///< of solids: seen as parts of them only; in source order
     std::vector<CsgNode> csg_nodes;  ///< the trees of the objects that are runtime::Csg, in their order
     std::vector<Light> lights;       ///< enabled ones
+    std::vector<Polyline> polylines; ///< that only raster pictures show: those without a radius
     std::vector<Mesh> meshes;
     std::vector<Function> functions;
     runtime::Camera<double> camera;
-    double near = 0.1, far = 1000; ///< of the camera; ray casting does not clip by them
     lang::Span camera_span;
     runtime::Rgb<double> ambient{0.1, 0.1, 0.1}; ///< Ia
     runtime::Rgb<double> background{0, 0, 0};
@@ -121,7 +128,7 @@ struct Scene {
     std::vector<runtime::BandGroup<double>> bands;
     std::string file; ///< that the scene names for its picture, or empty
     runtime::RenderSettings settings;
-    lang::Span sampling_span;    ///< of the render that says where samples lie and what they count
+    lang::Span method_span;      ///< of `ray { }` or `raster { }`, where the render has one
     runtime::SceneTraits traits; ///< by the pass derive_traits
 };
 

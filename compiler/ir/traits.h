@@ -32,6 +32,7 @@ inline constexpr auto trait_flags = std::to_array<TraitFlag>({
     {"two_sided", &runtime::SceneTraits::two_sided},
     {"functions", &runtime::SceneTraits::functions},
     {"uv", &runtime::SceneTraits::uv},
+    {"bump", &runtime::SceneTraits::bump},
     {"smooth_normals", &runtime::SceneTraits::smooth_normals},
     {"shadows", &runtime::SceneTraits::shadows},
     {"accelerator", &runtime::SceneTraits::accelerator},
@@ -41,6 +42,8 @@ inline constexpr auto trait_flags = std::to_array<TraitFlag>({
     {"lens", &runtime::SceneTraits::lens},
     {"pixel_sampling", &runtime::SceneTraits::pixel_sampling},
     {"spectra", &runtime::SceneTraits::spectra},
+    {"raster", &runtime::SceneTraits::raster},
+    {"lines", &runtime::SceneTraits::lines},
 });
 
 /// What a scene needs, in words: "sphere", "box (transformed)", "point_lights".

@@ -52,6 +52,7 @@ void verify_phong(const runtime::Phong<double>& p, const Material& material, con
                 material.name);
     }
     verify_varying(p.shininess.function, 1, scene, material.name);
+    verify_varying(p.bump, 1, scene, material.name);
     require(std::isfinite(p.ior) && p.ior > 0, "an index of refraction is no positive number", material.name);
 }
 

@@ -55,9 +55,12 @@ void need(SceneTraits& traits, const ir::ObjectColumn& column) {
 void need(SceneTraits& traits, const runtime::Phong<double>& p, const ir::Scene& scene) {
     traits.specular |= is_present(p.specular);
     traits.emission |= is_present(p.emission);
-    traits.reflection |= scene.settings.depth > 0 && is_present(p.reflect);
     traits.transmission |= lets_through(p);
-    traits.refraction |= refracts(p);
+    if (scene.settings.method == runtime::Method::ray) {
+        traits.reflection |= scene.settings.depth > 0 && is_present(p.reflect);
+        traits.refraction |= refracts(p);
+        traits.bump |= p.bump != runtime::no_function;
+    }
     for (const std::int32_t function : ir::functions_of(p)) {
         if (function != runtime::no_function) {
             traits.functions = true;
@@ -133,7 +136,7 @@ std::vector<Need> needs_of(const ir::Scene& scene) {
     }
     for (const ir::Light& light : scene.lights) {
         SceneTraits& traits = needs.emplace_back(SceneTraits{}, light.span).traits;
-        traits.shadows = scene.settings.shadows;
+        traits.shadows = scene.settings.shadows && scene.settings.method == runtime::Method::ray;
         std::visit([&](const auto& l) { need(traits, l); }, light.light);
         traits.separate_specular |=
             std::any_of(light.bands.begin(), light.bands.end(),
@@ -147,8 +150,12 @@ std::vector<Need> needs_of(const ir::Scene& scene) {
     camera.orthographic = scene.camera.projection == runtime::Projection::orthographic;
     camera.spherical = scene.camera.projection == runtime::Projection::spherical;
     camera.lens = scene.camera.lens_radius > 0;
-    if (!is_plain_grid(scene.settings)) {
-        needs.emplace_back(SceneTraits{}, scene.sampling_span).traits.pixel_sampling = true;
+    SceneTraits& method = needs.emplace_back(SceneTraits{}, scene.method_span).traits;
+    method.pixel_sampling = !is_plain_grid(scene.settings);
+    method.raster = scene.settings.method == runtime::Method::raster;
+    method.lines = method.raster && shows_edges(scene.settings.raster.shading);
+    for (const ir::Polyline& line : scene.polylines) {
+        needs.emplace_back(SceneTraits{}, line.span).traits.lines = true;
     }
     return needs;
 }
@@ -171,7 +178,7 @@ void derive_traits(ir::Scene& scene) {
                     std::visit([](const auto& shapes) { return count_bounded(shapes[0]); }, column.shapes);
             }
         });
-    traits.accelerator = bounded > runtime::accelerator_threshold;
+    traits.accelerator = !traits.raster && bounded > runtime::accelerator_threshold;
     scene.traits = traits;
 }
 

@@ -46,6 +46,7 @@ void for_each_function_index(runtime::Phong<double>& phong, Visit visit) {
     visit(phong.reflect.function);
     visit(phong.transmit.function);
     visit(phong.shininess.function);
+    visit(phong.bump);
 }
 
 template <class Visit>

@@ -3,6 +3,7 @@
 #include "compiler/backends/pov.h"
 #include "compiler/function_builder.h"
 #include "compiler/pipeline.h"
+#include "compiler/resolve_bumps.h"
 #include "compiler/resolve_uv.h"
 #include "compiler/test/folder.h"
 #include "compiler/test/support.h"
@@ -79,6 +80,75 @@ TEST(ResolveUv, WhatIsToldFromPIsTheShapesOwn) {
     triangle.points = {{{-1, -1, 0.2}, {2, -0.5, 0}, {0, 1.5, -0.3}}};
     triangle.uvs = {{{3, 1}, {-1, 2}, {0, -4}}};
     expect_told_from_p(triangle);
+}
+
+// ---- bumps -----------------------------------------------------------------------------------------------
+
+/// sin(2 p.x + p.y) + world.z p.x
+ir::Function waves() {
+    FunctionBuilder b;
+    const std::uint32_t x = b.input("p.x"), y = b.input("p.y"), z = b.input("world.z");
+    const std::uint32_t phase = b.apply("add", {b.apply("mul", {b.constant(2), x}), y});
+    return b.finish({{0, b.apply("add", {b.apply("sin", {phase}), b.apply("mul", {z, x})})}});
+}
+
+runtime::Affine<double> oblique() {
+    return {{{1.3, 0.2, 0, 0.5}, {-0.4, 0.8, 0.1, -0.2}, {0.3, 0, 1.6, 1}}};
+}
+
+/// By the point in the world, of a function of p alone.
+Vec3<double> gradient(const ir::Function& function, const Vec3<double>& p,
+                      const runtime::Affine<double>& place) {
+    using Number = runtime::Dual<double, 3>;
+    const runtime::Vec3<Number> point{Number::variable(p.x, 0), Number::variable(p.y, 1),
+                                      Number::variable(p.z, 2)};
+    const auto program = program_of<double>(function);
+    const runtime::Vec3<Number> world = runtime::transform_point(place, point);
+    const Number value = run(program, runtime::SurfacePoint<Number>{point, world, {}})[program.results[0]];
+    return transform_normal(inverse(place), Vec3<double>{value.d[0], value.d[1], value.d[2]});
+}
+
+/// What goes to other renderers has the gradient of the height, along the surface or as a whole.
+template <class Shape>
+void expect_slopes(const Shape& shape) {
+    ir::Object object{.shape = shape, .world_from_object = oblique(), .sides = {}, .path = "it", .span = {}};
+    const ir::Scene scene;
+    const auto along = height_along_surface(waves(), object, scene);
+    const auto slope = world_slope(waves(), object.world_from_object);
+    ASSERT_TRUE(along && slope) << Shape::name;
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    for (int met = 0; met < 100;) {
+        const auto vector = [&] { return Vec3<double>{unit(random), unit(random), unit(random)}; };
+        const Vec3<double> target = vector(), from = target + normalize(vector()) * 9.0;
+        const Ray<double> ray{from, target - from};
+        const auto hit = shape.intersect(ray);
+        if (!(hit.t < runtime::infinity<double>())) {
+            continue;
+        }
+        ++met;
+        const runtime::Surface<double> surface = shape.surface(ray, hit);
+        const Vec3<double> n = normalize(transform_normal(inverse(oblique()), surface.normal));
+        const Vec3<double> whole = gradient(waves(), surface.point, oblique());
+        const Vec3<double> expected = whole - n * dot(whole, n);
+        EXPECT_LT(length(gradient(*along, surface.point, oblique()) - expected), 1e-8) << Shape::name;
+        const std::vector<double> told = values(*slope, {surface.point, {}, {}, {}});
+        EXPECT_LT(length(Vec3<double>{told[0], told[1], told[2]} - whole), 1e-10) << Shape::name;
+    }
+}
+
+TEST(ResolveBumps, OtherRenderersGetTheSlopeAlongEverySurface) {
+    expect_slopes(runtime::Sphere<double>{{0.2, -0.1, 0.3}, 1.3});
+    expect_slopes(runtime::Box<double>{{-1, -0.4, 0.1}, {1.5, 0.7, 0.9}});
+    expect_slopes(runtime::Plane<double>{normalize(Vec3<double>{0.3, 1, -0.2}), 0.4});
+    expect_slopes(runtime::Disc<double>{{0.1, 0.2, 0}, normalize(Vec3<double>{1, -2, 0.5}), 1.5, 0.3});
+    expect_slopes(runtime::Cylinder<double>{{-0.3, -1, 0}, {0.4, 1, 0.5}, 0.8, true});
+    expect_slopes(runtime::Cone<double>{{0, -1, 0}, {0.2, 1.2, 0}, 0.3, 1.1, false});
+    expect_slopes(runtime::Torus<double>{{0, 0.3, 0}, normalize(Vec3<double>{0.2, 1, 0.1}), 1, 0.3});
+    expect_slopes(runtime::Quadric<double>{{1, 0.5, 2}, {0.2, 0, 0.1}, {0, 0.3, 0}, -0.5});
+    runtime::Triangle<double> triangle;
+    triangle.points = {{{-1, -1, 0.2}, {2, -0.5, 0}, {0, 1.5, -0.3}}};
+    expect_slopes(triangle);
 }
 
 class Textures : public testing::Test {

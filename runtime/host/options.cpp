@@ -318,6 +318,9 @@ runtime::RenderRequest make_request(const RenderOptions& options, const runtime:
     }
     request.settings.samples = options.samples.value_or(scene.samples);
     request.settings.filter = options.filter.value_or(scene.filter);
+    if (scene.method == runtime::Method::raster && request.settings.filter != runtime::PixelFilter::box) {
+        throw UsageError("--filter: a raster picture takes the mean of a pixel's samples");
+    }
     if (!runtime::fits_sampler(request.settings)) {
         throw UsageError(
             "--samples: " + std::to_string(request.settings.samples) +

@@ -73,19 +73,22 @@ constexpr Vec3<R> disc_reach(const Vec3<R>& axis, R radius) {
 
 /// Of a point on the side (part 0): the way around the axis and along it from 0 to 1, as around() sees the
 /// axis y; on a cap (parts 1 and 2): 0 to 1 over the square around it.
-template <class R, class L>
-constexpr Vec2<L> uv_about_axis(const Vec3<R>& from, const Vec3<R>& to, R radius_from, R radius_to,
-                                const IndexOf<L>& part, const Vec3<L>& point) {
+template <class R, class Index, class T>
+constexpr Vec2<T> uv_about_axis(const Vec3<R>& from, const Vec3<R>& to, R radius_from, R radius_to,
+                                const Index& part, const Vec3<T>& point) {
     const Vec3<R> axis = to - from;
     const R height = length(axis);
     const Vec3<R> up = axis * (1 / height);
     const PlanarAxes<R> axes = planar_axes(up);
-    const Vec3<L> d = point - lanes<L>(from);
-    const Vec2<L> side{around(dot(d, lanes<L>(axes.u)), -dot(d, lanes<L>(axes.v))),
-                       dot(d, lanes<L>(up)) * L(1 / height)};
-    const Vec2<L> at_from = on_square(d, -up, L(radius_from));
-    const Vec2<L> at_to = on_square(point - lanes<L>(to), up, L(radius_to));
-    return choose(part == IndexOf<L>(0), side, choose(part == IndexOf<L>(1), at_from, at_to));
+    const Vec3<T> d = point - lanes<T>(from);
+    const Vec2<T> side{around(dot(d, lanes<T>(axes.u)), -dot(d, lanes<T>(axes.v))),
+                       dot(d, lanes<T>(up)) * T(1 / height)};
+    const Vec2<T> at_from = on_square(d, -up, T(radius_from));
+    const Vec2<T> at_to = on_square(point - lanes<T>(to), up, T(radius_to));
+    const auto of_part = [&](const T& on_side, const T& on_from, const T& on_to) {
+        return choose(part == Index(0), on_side, choose(part == Index(1), on_from, on_to));
+    };
+    return {of_part(side.x, at_from.x, at_to.x), of_part(side.y, at_from.y, at_to.y)};
 }
 
 } // namespace scc::runtime

@@ -78,14 +78,14 @@ struct Box {
 
     /// 0 to 1 over each face, as it is seen from outside with y upwards; on those across y, -z goes up at the
     /// top and z at the bottom.
-    template <class L>
-    constexpr Vec2<L> uv(const Ray<L>&, const ShapeHit<L>& hit, const Vec3<L>& point) const {
-        const auto along = [](const L& p, R low, R high) { return (p - L(low)) * L(1 / (high - low)); };
-        const L x = along(point.x, min.x, max.x), y = along(point.y, min.y, max.y);
-        const L z = along(point.z, min.z, max.z);
+    template <class L, class T>
+    constexpr Vec2<T> uv(const Ray<L>&, const ShapeHit<L>& hit, const Vec3<T>& point) const {
+        const auto along = [](const T& p, R low, R high) { return (p - T(low)) * T(1 / (high - low)); };
+        const T x = along(point.x, min.x, max.x), y = along(point.y, min.y, max.y);
+        const T z = along(point.z, min.z, max.z);
         const auto is = [&](std::uint32_t face) { return hit.part == IndexOf<L>(face); };
-        const L u = choose(is(0), z, choose(is(1), 1 - z, choose(is(4), 1 - x, x)));
-        const L v = choose(is(2), z, choose(is(3), 1 - z, y));
+        const T u = choose(is(0), z, choose(is(1), 1 - z, choose(is(4), 1 - x, x)));
+        const T v = choose(is(2), z, choose(is(3), 1 - z, y));
         return {u, v};
     }
 

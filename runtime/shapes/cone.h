@@ -85,8 +85,8 @@ struct Cone {
         return {point, absolute(point) * (4 * u) + absolute(normal) * (32 * u * size), normal, normal};
     }
 
-    template <class L>
-    constexpr Vec2<L> uv(const Ray<L>&, const ShapeHit<L>& hit, const Vec3<L>& point) const {
+    template <class L, class T>
+    constexpr Vec2<T> uv(const Ray<L>&, const ShapeHit<L>& hit, const Vec3<T>& point) const {
         return uv_about_axis(from, to, radius_from, radius_to, hit.part, point);
     }
 

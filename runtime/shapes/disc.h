@@ -65,9 +65,9 @@ struct Disc {
     }
 
     /// 0 to 1 over the square around the disc.
-    template <class L>
-    constexpr Vec2<L> uv(const Ray<L>&, const ShapeHit<L>&, const Vec3<L>& point) const {
-        return on_square(point - lanes<L>(center), normal, L(radius));
+    template <class L, class T>
+    constexpr Vec2<T> uv(const Ray<L>&, const ShapeHit<L>&, const Vec3<T>& point) const {
+        return on_square(point - lanes<T>(center), normal, T(radius));
     }
 };
 

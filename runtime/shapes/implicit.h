@@ -23,8 +23,8 @@ struct Implicit {
     constexpr Bounds<R> bounds() const { return within.bounds(); }
 
     /// As POV-Ray has it for what has no coordinates of its own.
-    template <class L>
-    constexpr Vec2<L> uv(const Ray<L>&, const ShapeHit<L>&, const Vec3<L>& point) const {
+    template <class L, class T>
+    constexpr Vec2<T> uv(const Ray<L>&, const ShapeHit<L>&, const Vec3<T>& point) const {
         return {point.x, point.y};
     }
 };

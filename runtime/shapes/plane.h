@@ -71,10 +71,10 @@ struct Plane {
     }
 
     /// Lengths from the origin's foot along the plane's axes.
-    template <class L>
-    constexpr Vec2<L> uv(const Ray<L>&, const ShapeHit<L>&, const Vec3<L>& point) const {
+    template <class L, class T>
+    constexpr Vec2<T> uv(const Ray<L>&, const ShapeHit<L>&, const Vec3<T>& point) const {
         const PlanarAxes<R> axes = planar_axes(normal);
-        return {dot(point, lanes<L>(axes.u)), dot(point, lanes<L>(axes.v))};
+        return {dot(point, lanes<T>(axes.u)), dot(point, lanes<T>(axes.v))};
     }
 };
 

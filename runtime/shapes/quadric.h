@@ -87,8 +87,8 @@ struct Quadric {
     }
 
     /// As of other surfaces without coordinates of their own.
-    template <class L>
-    constexpr Vec2<L> uv(const Ray<L>&, const ShapeHit<L>&, const Vec3<L>& point) const {
+    template <class L, class T>
+    constexpr Vec2<T> uv(const Ray<L>&, const ShapeHit<L>&, const Vec3<T>& point) const {
         return {point.x, point.y};
     }
 

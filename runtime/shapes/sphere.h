@@ -65,11 +65,11 @@ struct Sphere {
     }
 
     /// Longitude and latitude about the y axis, 0 to 1: the middle of a picture faces the z axis.
-    template <class L>
-    constexpr Vec2<L> uv(const Ray<L>&, const ShapeHit<L>&, const Vec3<L>& point) const {
-        const Vec3<L> d = point - lanes<L>(center);
+    template <class L, class T>
+    constexpr Vec2<T> uv(const Ray<L>&, const ShapeHit<L>&, const Vec3<T>& point) const {
+        const Vec3<T> d = point - lanes<T>(center);
         return {around(d.x, d.z),
-                arc_tangent(d.y, square_root(d.x * d.x + d.z * d.z)) * inverse_pi<L>() + RealOf<L>(0.5)};
+                arc_tangent(d.y, square_root(d.x * d.x + d.z * d.z)) * inverse_pi<T>() + R(0.5)};
     }
 };
 

@@ -98,12 +98,12 @@ struct Torus {
     }
 
     /// Around the axis as on a cylinder's side, and around the tube: 1/2 farthest from the axis.
-    template <class L>
-    Vec2<L> uv(const Ray<L>&, const ShapeHit<L>&, const Vec3<L>& point) const {
+    template <class L, class T>
+    Vec2<T> uv(const Ray<L>&, const ShapeHit<L>&, const Vec3<T>& point) const {
         const PlanarAxes<R> axes = planar_axes(axis);
-        const Vec3<L> d = point - lanes<L>(center);
-        const L x = dot(d, lanes<L>(axes.u)), z = -dot(d, lanes<L>(axes.v));
-        return {around(x, z), around(dot(d, lanes<L>(axis)), square_root(x * x + z * z) - L(major))};
+        const Vec3<T> d = point - lanes<T>(center);
+        const T x = dot(d, lanes<T>(axes.u)), z = -dot(d, lanes<T>(axes.v));
+        return {around(x, z), around(dot(d, lanes<T>(axis)), square_root(x * x + z * z) - T(major))};
     }
 
 private:

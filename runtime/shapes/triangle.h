@@ -74,6 +74,13 @@ struct Triangle {
         };
         return {interpolate(uvs[0].x, uvs[1].x, uvs[2].x), interpolate(uvs[0].y, uvs[1].y, uvs[2].y)};
     }
+    /// Gradients of u and v by the point.
+    template <class L>
+    Vec2<Vec3<L>> uv_slopes() const {
+        const auto value = [&](std::size_t i) { return Vec3<L>{L(uvs[i].x), L(uvs[i].y), L(0)}; };
+        return corner_slopes(Corners<L>{lanes<L>(points[0]), lanes<L>(points[1]), lanes<L>(points[2])},
+                             Corners<L>{value(0), value(1), value(2)});
+    }
 };
 
 } // namespace scc::runtime

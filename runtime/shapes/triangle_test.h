@@ -165,6 +165,18 @@ constexpr Vec3<L> barycentric(const Corners<L>& corners, const Ray<L>& ray) {
     return inside * (1 / (inside.x + inside.y + inside.z));
 }
 
+/// The gradients of two quantities that are linear over the triangle, by the point; each corner has its x and
+/// y.
+template <class L>
+Vec2<Vec3<L>> corner_slopes(const Corners<L>& corners, const Corners<L>& values) {
+    const Vec3<L> edge1 = corners.b - corners.a, edge2 = corners.c - corners.a;
+    const Vec3<L> n = cross(edge1, edge2);
+    const L inverse = 1 / dot(n, n);
+    const Vec3<L> by_b = cross(edge2, n) * inverse, by_c = cross(n, edge1) * inverse; // of the weights
+    const Vec3<L> value1 = values.b - values.a, value2 = values.c - values.a;
+    return {by_b * value1.x + by_c * value2.x, by_b * value1.y + by_c * value2.y};
+}
+
 template <class L>
 constexpr Surface<L> triangle_surface(const Corners<L>& corners, const Vec3<L>& weights) {
     const L u = roundoff<L>();

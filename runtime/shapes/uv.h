@@ -1,22 +1,24 @@
 #pragma once
 
+#include "runtime/math/dual.h"
 #include "runtime/math/vec.h"
 
 #include <numbers>
 
 /// What the shapes' coordinates on their surfaces have in common: seen from outside, u grows to the right and
-/// v upwards.
+/// v upwards. T is a lane type or, for their derivatives, a dual number over one.
 namespace scc::runtime {
 
-template <class L>
-constexpr L inverse_pi() {
-    return L(std::numbers::inv_pi_v<RealOf<L>>);
+template <class T>
+constexpr T inverse_pi() {
+    return T(std::numbers::inv_pi_v<typename RealOfNumber<T>::type>);
 }
 
 /// The angle about the y axis of a point at (x, z) from it, 0 to 1: 1/2 towards z, 3/4 towards x.
-template <class L>
-L around(const L& x, const L& z) {
-    return arc_tangent(x, z) * (inverse_pi<L>() * RealOf<L>(0.5)) + RealOf<L>(0.5);
+template <class T>
+T around(const T& x, const T& z) {
+    using R = typename RealOfNumber<T>::type;
+    return arc_tangent(x, z) * (inverse_pi<T>() * R(0.5)) + R(0.5);
 }
 
 template <class R>
@@ -36,12 +38,12 @@ constexpr PlanarAxes<R> planar_axes(const Vec3<R>& normal) {
 }
 
 /// 0 to 1 over the square around a circle, for a point relative to its centre.
-template <class R, class L>
-constexpr Vec2<L> on_square(const Vec3<L>& from_center, const Vec3<R>& normal, const L& radius) {
+template <class R, class T>
+constexpr Vec2<T> on_square(const Vec3<T>& from_center, const Vec3<R>& normal, const T& radius) {
     const PlanarAxes<R> axes = planar_axes(normal);
-    const L scale = RealOf<L>(0.5) / radius;
-    return {dot(from_center, lanes<L>(axes.u)) * scale + RealOf<L>(0.5),
-            dot(from_center, lanes<L>(axes.v)) * scale + RealOf<L>(0.5)};
+    const T scale = R(0.5) / radius;
+    return {dot(from_center, lanes<T>(axes.u)) * scale + R(0.5),
+            dot(from_center, lanes<T>(axes.v)) * scale + R(0.5)};
 }
 
 } // namespace scc::runtime

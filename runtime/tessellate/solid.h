@@ -184,7 +184,7 @@ SolidMesh<typename S::Real> tessellate_solid(const S& scene, std::uint32_t root,
     return detail::tessellate_field(SolidField<S>::of_solid(scene, root), tolerance, limits);
 }
 
-/// A Bare or Placed implicit surface.
+/// A Bare or Placed implicit surface or quadric. Empty where it has no bounds.
 template <class S, class Primitive>
 SolidMesh<typename S::Real> tessellate_implicit(const S& scene, const Primitive& primitive,
                                                 const Tolerance<typename S::Real>& tolerance,

@@ -86,10 +86,10 @@ public:
         field.add_node(root, false);
         return field;
     }
-    /// Of an implicit surface.
+    /// Of an implicit surface or a quadric.
     template <class Primitive>
     static SolidField of_implicit(const S& scene, const Primitive& primitive) {
-        SolidField field(scene, bounds_of(scene, primitive));
+        SolidField field(scene, detail::member_bounds(scene, primitive));
         field.add_primitive(primitive, {}, false);
         return field;
     }

@@ -560,4 +560,107 @@ TEST(Optics, CountsRefractedAndMirroredRays) {
     EXPECT_EQ(counts.reflected, 2U);
 }
 
+// ---- bumps -----------------------------------------------------------------------------------------------
+
+/// `0.3 q` of one input, q.
+FunctionProgram<double> ramp(Opcode input) {
+    FunctionProgram<double> program;
+    program.instructions = {{input}, {Opcode::constant, {}, 0.3}, {Opcode::mul, {0, 1, 0}}};
+    program.results = {2};
+    return program;
+}
+
+Scene bumped_floor(Opcode input) {
+    Scene scene = floor_scene(diffuse(0, 1));
+    scene.ambient = gray(0);
+    scene.materials[0].bump = 0;
+    scene.functions.push_back(ramp(input));
+    return scene;
+}
+
+DirectionalLight<double> sun(const V& to_light) {
+    return {normalize(to_light), gray(1), gray(1)};
+}
+
+TEST(Bump, TiltsTheNormalByTheSlope) {
+    Scene scene = bumped_floor(Opcode::world_x);
+    scene.directional_lights.push_back(sun({1, 2, 0}));
+    EXPECT_NEAR(seen(scene, {0, 2, 0}, down), dot(normalize(V{-0.3, 1, 0}), normalize(V{1, 2, 0})), 1e-15);
+}
+
+TEST(Bump, IsADentFromBehind) {
+    Scene scene = bumped_floor(Opcode::world_x);
+    scene.directional_lights.push_back(sun({1, -2, 0}));
+    // The mould of what stands on the other side: its normal is the other's, turned over.
+    EXPECT_NEAR(seen(scene, {0, -2, 0}, -down), dot(normalize(V{0.3, -1, 0}), normalize(V{1, -2, 0})), 1e-15);
+}
+
+TEST(Bump, IsNotLitThroughTheSurface) {
+    Scene scene = bumped_floor(Opcode::world_x);
+    scene.directional_lights.push_back(sun({-1, -0.1, 0})); // from below, where the bump faces
+    EXPECT_EQ(seen(scene, {0, 2, 0}, down, 5, false), 0);
+}
+
+TEST(Bump, HeightIsInWorldUnitsWhateverTheTransform) {
+    // Object coordinates are stretched by (2, 1, 4), sheared, and turned about y.
+    const double c = std::cos(0.4), s = std::sin(0.4);
+    const Affine<double> place{{{2 * c, 0.1, 4 * s, 1}, {0, 1, 0, 0}, {-2 * s, 0.2, 4 * c, 2}}};
+    Scene scene = bumped_floor(Opcode::p_x);
+    std::get<std::vector<Bare<Plane<double>>>>(scene.shapes.tables).clear();
+    scene.add(Placed<Plane<double>, double>{{{0, 1, 0}, 0}, place, inverse(place), {0, {0, 0}}});
+    scene.directional_lights.push_back(sun({1, 2, 0.5}));
+    const V slope = V{c / 2, 0, -s / 2} * 0.3; // of p.x by the world, along the floor
+    EXPECT_NEAR(seen(scene, {0.3, 2, 0.7}, down), dot(normalize(V{0, 1, 0} - slope), normalize(V{1, 2, 0.5})),
+                1e-14);
+}
+
+TEST(Bump, MirrorsByTheTiltedNormalButNotIntoTheSurface) {
+    const V normal = normalize(V{-0.3, 1, 0}), facing{0, 1, 0};
+    EXPECT_EQ(reflect_bumped(down, normal, facing), reflect(down, normal));
+    for (const V& dir : {V{1, -0.1, 0}, V{-1, -0.1, 0}, V{0.3, -1, 2}}) {
+        const V mirrored = reflect_bumped(normalize(dir), normal, facing);
+        EXPECT_GE(mirrored.y, 0);
+        EXPECT_NEAR(length(mirrored), 1, 1e-15);
+    }
+}
+
+/// Slopes of uv by the point, against differences along the surface.
+template <class Shape>
+void expect_uv_slopes(const Shape& shape, const Ray<double>& ray) {
+    const Scene scene;
+    const Bare<Shape> bare{shape, {}};
+    const ShapeHit<double> hit = shape.intersect(ray);
+    ASSERT_LT(hit.t, infinity<double>());
+    const Surface<double> surface = shape.surface(ray, hit);
+    const auto slopes = uv_slopes_of(scene, bare, ray, hit, true, surface.point);
+    for (const V& axis : {V{1, 0, 0}, V{0, 1, 0}, V{0, 0, 1}}) {
+        const V along = axis - surface.normal * dot(axis, surface.normal);
+        const auto uv_at = [&](double distance) {
+            const V point = surface.point + along * distance;
+            const Ray<double> there{point - ray.dir, ray.dir, ray.t_min, ray.t_max};
+            return shape.uv(there, hit, point);
+        };
+        const double step = 1e-5;
+        const Vec2<double> ahead = uv_at(step), behind = uv_at(-step);
+        EXPECT_NEAR(dot(slopes.x, along), (ahead.x - behind.x) / (2 * step), 1e-8) << Shape::name;
+        EXPECT_NEAR(dot(slopes.y, along), (ahead.y - behind.y) / (2 * step), 1e-8) << Shape::name;
+    }
+}
+
+TEST(Bump, KnowsTheSlopesOfCoordinatesOnEveryShape) {
+    const Ray<double> ray{{0.3, 0.2, 5}, normalize(V{0.02, 0.03, -1})};
+    expect_uv_slopes(Sphere<double>{{0.1, 0, 0}, 1}, ray);
+    expect_uv_slopes(Box<double>{{-1, -1, -1}, {1, 2, 1}}, ray);
+    expect_uv_slopes(Cylinder<double>{{0, -1, 0}, {0.2, 1, 0}, 1}, ray);
+    expect_uv_slopes(Cone<double>{{0, -1, 0}, {0.2, 1, 0}, 1, 0.3}, ray);
+    expect_uv_slopes(Torus<double>{{0, 0, 0}, normalize(V{0, 1, 0.2}), 1, 0.3}, ray);
+    expect_uv_slopes(Plane<double>{normalize(V{0.1, 0.2, 1}), 0}, ray);
+    expect_uv_slopes(Disc<double>{{0, 0, 0}, normalize(V{0.1, 0.2, 1}), 2, 0}, ray);
+    expect_uv_slopes(Quadric<double>{{1, 1, 2}}, ray);
+    Triangle<double> triangle;
+    triangle.points = {V{-2, -1, 0}, V{2, -1, 0.3}, V{0, 3, 0}};
+    triangle.uvs = {Vec2<double>{0.1, 0.2}, {0.9, 0.3}, {0.4, 0.8}};
+    expect_uv_slopes(triangle, ray);
+}
+
 } // namespace

@@ -40,7 +40,8 @@ struct View {
     /// Through a point of the picture, in pixels.
     template <class L>
     runtime::Ray<L> ray_through(const L& column, const L& row) const {
-        return camera_ray(camera, runtime::Projection::perspective, window_x(camera, column, side, side),
+        return camera_ray(camera, runtime::Projection::perspective,
+                          window_x(camera, runtime::Projection::perspective, column, side, side),
                           window_y(camera, row, side));
     }
 };

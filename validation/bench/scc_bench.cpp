@@ -27,10 +27,11 @@ struct Options {
     fs::path out = "bench";
     fs::path scc = SCC_BINARY_DIR "/scc";
     fs::path kernel_bench = SCC_BINARY_DIR "/scc_kernel_bench";
+    fs::path raster_bench = SCC_BINARY_DIR "/scc_raster_bench";
     fs::path data = SCC_BENCH_DATA;
     fs::path examples = SCC_SOURCE_DIR "/examples";
     fs::path scenes = SCC_SOURCE_DIR "/validation/bench/scenes";
-    std::vector<std::string> rows{"kernels", "mirrors", "spd", "gains", "frontend"};
+    std::vector<std::string> rows{"kernels", "mirrors", "spd", "gains", "frontend", "raster"};
     std::vector<int> threads{1, 2};
     int repeat = 5;
 
@@ -76,6 +77,9 @@ public:
         }
         if (options_.wants("frontend")) {
             frontend();
+        }
+        if (options_.wants("raster")) {
+            raster();
         }
         for (const std::string& version : versions_) {
             report_.describe("peer", version);
@@ -278,6 +282,56 @@ private:
         }
         std::ifstream stream(file);
         figures = json::parse(stream);
+        return {};
+    }
+
+    // --- the raster pipeline ---
+
+    static constexpr Target frame_target{3, 5}, fill_target{1, 1.5};
+
+    void raster() {
+        for (const int threads : options_.threads) {
+            json figures;
+            const std::string failure = run_raster_bench(threads, figures);
+            if (!failure.empty()) {
+                add(skipped(failure), "lit mesh by vertices, against llvmpipe", "", threads, frame_target);
+                continue;
+            }
+            for (const json& figure : figures.at("rows")) {
+                const std::size_t triangles = figure.at("triangles");
+                const bool fills = triangles < 1000;
+                Row row;
+                row.reached = series_of(figure.at("ratio"));
+                row.facts = figure;
+                // Small meshes are for information.
+                const std::optional<Target> target = fills                ? std::optional(fill_target)
+                                                     : triangles >= 69000 ? std::optional(frame_target)
+                                                                          : std::nullopt;
+                add(std::move(row),
+                    fills ? "layers that fill the picture, against llvmpipe"
+                          : "lit mesh by vertices, against llvmpipe",
+                    fmt::format("{}, {} triangles, 1920x1080", figure.at("mesh").get<std::string>(),
+                                triangles),
+                    threads, target);
+                versions_.insert("OpenGL " + figure.at("version").get<std::string>());
+            }
+        }
+    }
+
+    std::string run_raster_bench(int threads, json& figures) {
+        if (!fs::exists(options_.raster_bench)) {
+            return "scc_raster_bench is missing: it is built where OSMesa is installed";
+        }
+        validation::Command command;
+        command.program = fs::absolute(options_.raster_bench).string();
+        command.arguments = {"--repeat",  std::to_string(options_.repeat),
+                             "--threads", std::to_string(threads),
+                             "--meshes",  (options_.data / "mesh").string()};
+        const validation::ProcessResult process = validation::run(command);
+        if (!process.ok()) {
+            return failure_of(process, command);
+        }
+        figures = json::parse(process.out);
         return {};
     }
 
@@ -532,15 +586,17 @@ int main(int argc, char** argv) {
     CLI::App app{"Compares scc with Embree, POV-Ray and Tachyon and writes bench.json and bench.md."};
     app.add_option("--out", options.out, "Folder for the tables; pictures and scenes go to its work/")
         ->capture_default_str();
-    app.add_option("--rows", options.rows, "Of kernels, mirrors, spd, gains")
+    app.add_option("--rows", options.rows, "Of kernels, mirrors, spd, gains, frontend, raster")
         ->delimiter(',')
-        ->check(CLI::IsMember({"kernels", "mirrors", "spd", "gains", "frontend"}));
+        ->check(CLI::IsMember({"kernels", "mirrors", "spd", "gains", "frontend", "raster"}));
     app.add_option("--threads", options.threads, "Numbers of threads")->delimiter(',')->capture_default_str();
     app.add_option("--repeat", options.repeat, "Repetitions")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     app.add_option("--scc", options.scc, "The compiler to measure")->capture_default_str();
     app.add_option("--kernel-bench", options.kernel_bench, "The kernels to measure")->capture_default_str();
+    app.add_option("--raster-bench", options.raster_bench, "The raster pipeline to measure")
+        ->capture_default_str();
     app.add_option("--data", options.data, "Folder with mesh/ and nff/")->capture_default_str();
     CLI11_PARSE(app, argc, argv);
     try {

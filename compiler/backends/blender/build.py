@@ -84,6 +84,9 @@ DEFAULTS = dict(
     #: mirror
     reflect=BLACK,
     #: end
+    #: bump
+    bump=BLACK,
+    #: end
 )
 
 

@@ -112,14 +112,27 @@ def either_side(g, front, back, side):
 
 
 #: end
+#: bump
+def bumped(g, normal, outward, slope):
+    """The normal of the surface displaced outwards by a height of this slope; it is a dent from behind."""
+    along = g.v("SUBTRACT", slope, g.v("SCALE", normal, g.v("DOT_PRODUCT", slope, normal)))
+    side = g.f("SIGN", g.v("DOT_PRODUCT", normal, outward))
+    return g.v("NORMALIZE", g.v("SUBTRACT", normal, g.v("SCALE", along, side)))
+
+
+#: end
 def exact_surface(g, sides, hit):
     fields = sides[0]
     #: two_sided
     if len(sides) > 1:
         fields = either_side(g, *sides, hit["Back"])
     #: end
+    normal = hit["Normal"]
+    #: bump
+    normal = bumped(g, normal, hit["Outward"], fields["bump"])
+    #: end
     inputs = {key: fields[key.lower()] for key in phong_group().inputs.keys() if key.lower() in fields}
-    return g.group(phong_group(), Position=hit["Position"], Normal=hit["Normal"], **inputs)["Shader"]
+    return g.group(phong_group(), Position=hit["Position"], Normal=normal, **inputs)["Shader"]
 
 
 #: light

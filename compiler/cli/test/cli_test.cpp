@@ -16,6 +16,20 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
+TEST_F(CommandLine, BuildSaysWhatItsOutputDependsOn) {
+    std::filesystem::create_directory(path("my parts"));
+    write("my parts/ball.scn", "let ball = mesh { file = \"one.obj\" }\n");
+    write("my parts/one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write("s.scn", "import \"my parts/ball.scn\" as parts\nparts.ball\n");
+    ASSERT_TRUE(scc({"build", "s.scn", "--emit", "ir", "-o", "out$1.ir", "-d", "s.d"}).ok());
+    EXPECT_EQ(read("s.d"), "out$$1.ir: s.scn \\\n  my\\ parts/ball.scn \\\n  my\\ parts/one.obj\n"
+                           "\nmy\\ parts/ball.scn:\n\nmy\\ parts/one.obj:\n");
+    EXPECT_EQ(scc({"build", "s.scn", "--emit", "ir", "-o", "-", "-d", "t.d"}).code, 2);
+    write("s.scn", "sphere { radius = -1 }\n");
+    EXPECT_EQ(scc({"build", "s.scn", "--emit", "ir", "-o", "o", "-d", "t.d"}).code, 1);
+    EXPECT_FALSE(exists("t.d"));
+}
+
 TEST_F(CommandLine, HelpNamesEveryCommand) {
     const auto result = scc({"--help"});
     EXPECT_TRUE(result.ok());
@@ -42,7 +56,6 @@ TEST_F(CommandLine, UsageMistakesExitWith2) {
                             {"render", "s.scn", "-o", "a.png", "--crop", "0,0,5000,10"},
                             {"render", "s.scn", "-o", "a.png", "--bits", "12"},
                             {"render", "s.scn", "-o", "a.png", "--threads", "0"},
-                            {"render", "s.scn", "-o", "a.png", "--mode", "raster"},
                             {"render", "s.scn", "-o", "a.png", "-D", "x"},
                             {"render", "s.scn", "-o", "a.png", "--no-such-option"},
                             {"export", "maya", "s.scn", "-o", "a"},
@@ -361,7 +374,8 @@ TEST_F(CommandLine, ComparesPictures) {
 }
 
 const std::string small_nff = "v\nfrom 0 -5 2\nat 0 0 0\nup 0 0 1\nangle 40\nhither 1\nresolution 32 24\n"
-                              "l 3 -4 5\nf 1 0.5 0.2 0.8 0.2 20 0.5 1.5\ns 0 0 0 1\nc 2 0 0 0.5 2 0 1 0\n";
+                              "l 3 -4 5\nf 1 0.5 0.2 0.8 0.2 20 0.5 1.5\ns 0 0 0 1\n"
+                              "f 1 0.5 0.2 0.8 0.2 20 0 1\nc 2 0 0 0.5 2 0 1 0\n";
 
 TEST_F(CommandLine, ImportsAndRenders) {
     write("a.nff", small_nff);

@@ -325,8 +325,9 @@ TEST_F(Lsp, CompletesFieldsThatAreNotSet) {
               std::string::npos);
     EXPECT_EQ(radius["textEdit"], (Json{{"range", range(0, 9, 11)}, {"newText", "radius = "}}));
     EXPECT_TRUE(has(labels("sphere { if (true) { | } }\n"), "center"));
-    EXPECT_TRUE(has(labels("sphere { |"), "center"));   // never closed
-    EXPECT_FALSE(has(labels("phong { | }\n"), "bump")); // not supported yet
+    EXPECT_TRUE(has(labels("sphere { |"), "center")); // never closed
+    EXPECT_TRUE(has(labels("phong { | }\n"), "bump"));
+    EXPECT_FALSE(has(labels("point_light { | }\n"), "power")); // not supported yet
 }
 
 TEST_F(Lsp, CompletesChoices) {

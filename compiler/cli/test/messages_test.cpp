@@ -72,6 +72,10 @@ const std::map<Diag, Case>& cases() {
          {"let a = phong { transmit = rgb(1, 1, 1), ior = 1.5 }\n"
           "difference {\n  sphere { material = a }\n"
           "  box { min = (0, 0, 0), material = phong { transmit = rgb(1, 1, 1), ior = 1.33 } }\n}\n"}},
+        {Diag::bump_of_normal, {"sphere { material = phong { bump = fn(s: surface) = s.n.x } }\n"}},
+        {Diag::idle_bump, {"sphere { material = phong { bump = fn(s: surface) = floor(s.p.x) } }\n"}},
+        {Diag::open_refraction,
+         {"disc { material = phong { transmit = rgb(1, 1, 1), ior = 1.5, diffuse = rgb(0, 0, 0) } }\n"}},
         {Diag::idle_ior, {"sphere { material = phong { ior = 1.5 } }\n"}},
         {Diag::bright_reflectance, {"sphere { material = phong { diffuse = rgb(1, 1.2, 0.5) } }\n"}},
         {Diag::depth_precision,
@@ -82,7 +86,12 @@ const std::map<Diag, Case>& cases() {
         {Diag::one_frame,
          {"sphere { center = (frame, 0, 0) }\nrender { frames = 2..5 }\n",
           {"build", "s.scn", "-o", "s.ir", "--emit", "ir"}}},
-        {Diag::raster_skipped, {"sphere { }\nrender { method = raster { } }\n"}},
+        {Diag::render_left_out, {"sphere { }\nrender { }\nrender { method = raster { } }\n"}},
+        {Diag::raster_needs_plane, {"sphere { }\nspherical_camera { }\nrender { method = raster { } }\n"}},
+        {Diag::raster_leaves_out,
+         {"sphere { }\nperspective_camera { aperture = 0.1 }\nrender { method = raster { } }\n"}},
+        {Diag::raster_left_out,
+         {"intersection { box { }; quadric { squares = (1, -1, 0) } }\nrender { method = raster { } }\n"}},
         {Diag::unsupported_setting,
          {"let relief = image { file = \"light.exr\", encoding = \"linear\" }\n"
           "implicit { field = fn(p: vec3) = p.z - relief((p.x, p.y)).r, within = sphere { } }\n"}},

@@ -55,6 +55,7 @@ constexpr Feature features[] = {
                       "sphere { material = phong { diffuse = fn(s: surface) = q(s.uv) } }\n"},
     {"Scene::directional_lights", "directional_light { direction = (0, -1, 0) }\n"},
     {"FreePainter", "render { method = ray { filter = \"mitchell\" } }\n"},
+    {"RasterPainter", "render { method = raster { } }\n"},
     {"TilePainter::bend", "let c = perspective_camera { aperture = 0.1 }\nc\nrender { camera = \"c\" }\n"},
 };
 constexpr const char* mesh_text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";

@@ -1,0 +1,111 @@
+#include "compiler/cli/test/support.h"
+#include "runtime/host/read_image.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+/// Raster mode: how it is asked for, and that it is drawn the same everywhere.
+namespace scc::cli::test {
+namespace {
+
+class Raster : public CommandLine {
+protected:
+    runtime::Image drawn(std::vector<std::string> options, const std::string& file = "a.pfm") {
+        std::vector<std::string> arguments{"render", "s.scn", "-o", file, "--size", "64x48"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const auto result = scc(arguments);
+        EXPECT_TRUE(result.ok()) << result.err;
+        return host::read_image(path(file));
+    }
+    static double difference(const runtime::Image& a, const runtime::Image& b) {
+        double most = 0;
+        for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+            most = std::max(most, std::abs(double{a.pixels[i]} - double{b.pixels[i]}));
+        }
+        return most;
+    }
+};
+
+constexpr const char* ball =
+    "sphere { material = phong { diffuse = rgb(0.7, 0.5, 0.2), specular = rgb(0.5, 0.5, 0.5), shininess = 20 "
+    "} }\n"
+    "perspective_camera { eye = (0, 1, 5), near = 1, far = 20 }\npoint_light { position = (3, 4, 5) }\n";
+
+TEST_F(Raster, IsWhatTheFirstRenderOrTheCommandLineAsksFor) {
+    const std::string flat = "render { method = raster { shading = \"flat\", tessellation = 0.02 } }\n";
+    write("s.scn", std::string(ball) + flat);
+    const runtime::Image by_scene = drawn({});
+    const runtime::Image by_rays = drawn({"--mode", "ray"});
+    EXPECT_EQ(by_scene.pixels, drawn({"--mode", "raster"}).pixels);
+    EXPECT_GT(difference(by_scene, by_rays), 0.05);
+    write("s.scn", std::string(ball) + "render { }\n" + flat);
+    EXPECT_EQ(drawn({}).pixels, by_rays.pixels);
+    EXPECT_EQ(drawn({"--mode", "raster"}).pixels, by_scene.pixels);
+    const auto note = scc({"render", "s.scn", "-o", "a.pfm", "--size", "8x8"});
+    EXPECT_NE(note.err.find("`--mode raster` draws it [render-left-out]"), std::string::npos) << note.err;
+    write("s.scn", ball);
+    EXPECT_LT(difference(drawn({"--mode", "raster", "--samples", "16"}),
+                         drawn({"--mode", "ray", "--samples", "16"})),
+              0.1)
+        << "lit per pixel, and nothing casts shadows; a sample at an outline may differ";
+}
+
+TEST_F(Raster, DrawsLinesThatRaysCannotMeet) {
+    write("s.scn", std::string(ball) +
+                       "polyline { points = [(-3, 1.5, 0), (3, 1.5, 0)], color = rgb(1, 0, 0) }\n"
+                       "render { method = raster { } }\n");
+    const runtime::Image image = drawn({});
+    int red = 0;
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            const float* pixel = image.at(x, y);
+            red += pixel[0] == 1 && pixel[1] == 0 && pixel[2] == 0 ? 1 : 0;
+        }
+    }
+    EXPECT_GE(red, 40);
+    EXPECT_LE(red, 64);
+    const auto by_rays = scc({"render", "s.scn", "-o", "b.pfm", "--mode", "ray"});
+    EXPECT_EQ(by_rays.code, 1);
+    EXPECT_NE(by_rays.err.find("[thin-line]"), std::string::npos);
+}
+
+TEST_F(Raster, RefusesWhatItHasNot) {
+    write("s.scn", ball);
+    EXPECT_EQ(scc({"render", "s.scn", "-o", "a.pfm", "--mode", "raster", "--filter", "mitchell"}).code, 2);
+    EXPECT_EQ(scc({"explain", "s.scn", "--pixel", "10,10", "--mode", "raster"}).code, 2);
+    EXPECT_EQ(scc({"render", "s.scn", "-o", "a.pfm", "--mode", "scanline"}).code, 2);
+    EXPECT_FALSE(exists("a.pfm"));
+}
+
+/// What raster mode has not is left out of the other renderers' scenes as well; what they have not is said.
+TEST_F(Raster, IsExportedAsFarAsRaysCanFollow) {
+    const std::string mirror = "plane { material = phong { reflect = rgb(0.9, 0.9, 0.9) } }\n";
+    write("s.scn", ball + mirror + "render { method = raster { } }\n");
+    ASSERT_TRUE(scc({"export", "pov", "s.scn", "-o", "s.pov", "--ledger", "s.json"}).ok());
+    EXPECT_EQ(read("s.pov").find("reflection"), std::string::npos);
+    EXPECT_NE(read("s.pov").find("no_shadow"), std::string::npos);
+    EXPECT_NE(read("s.json").find("\"raster\""), std::string::npos);
+    write("s.scn", ball + mirror + "render { method = raster { shading = \"gouraud\" } }\n");
+    const auto refused = scc({"export", "pov", "s.scn", "-o", "t.pov"});
+    EXPECT_EQ(refused.code, 1);
+    EXPECT_NE(refused.err.find("shading \"gouraud\" cannot be written for POV-Ray"), std::string::npos)
+        << refused.err;
+    EXPECT_FALSE(exists("t.pov"));
+}
+
+TEST_F(Raster, LayersAreOfTheTriangles) {
+    write("s.scn", ball);
+    const auto of = [&](const char* mode, const char* file) {
+        const auto result =
+            scc({"render", "s.scn", "-o", file, "--size", "64x48", "--mode", mode, "--aov", "depth"});
+        EXPECT_TRUE(result.ok()) << result.err;
+    };
+    of("ray", "ray.exr");
+    of("raster", "raster.exr");
+    EXPECT_EQ(scc({"compare", "ray.exr", "raster.exr", "--max", "0.05"}).code, 0);
+}
+
+} // namespace
+} // namespace scc::cli::test

@@ -1,0 +1,129 @@
+#pragma once
+
+#include "runtime/raster/screen_triangle.h"
+#include "runtime/render_request.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace scc::runtime::raster {
+
+/// Samples across a tile, at most.
+inline constexpr int most_tile_samples = 64;
+
+/// The picture's tiles: squares of whole pixels, in the same places whatever the crop is.
+class TileGrid {
+public:
+    TileGrid(const Crop& crop, int samples_across)
+        : samples_(samples_across), pixels_(std::max(1, most_tile_samples / samples_across)),
+          crop_(crop), box_{crop.x0 * samples_, crop.y0 * samples_, crop.x1 * samples_, crop.y1 * samples_},
+          first_column_(crop.x0 / pixels_), first_row_(crop.y0 / pixels_),
+          across_((crop.x1 + pixels_ - 1) / pixels_ - first_column_),
+          down_((crop.y1 + pixels_ - 1) / pixels_ - first_row_),
+          inverse_((std::uint64_t{1} << 32U) / static_cast<std::uint64_t>(pixels_ * samples_) + 1) {}
+
+    const SampleBox& box() const { return box_; }   ///< all samples that are drawn
+    int samples_across() const { return samples_; } ///< a pixel
+    int count() const { return across_ * down_; }
+    int across() const { return across_; }
+    int tile_samples() const { return pixels_ * samples_; } ///< across a tile
+
+    /// The pixels of a tile that are drawn.
+    Crop pixels_of(int tile) const {
+        const int x = (first_column_ + tile % across_) * pixels_, y = (first_row_ + tile / across_) * pixels_;
+        return {std::max(x, crop_.x0), std::max(y, crop_.y0), std::min(x + pixels_, crop_.x1),
+                std::min(y + pixels_, crop_.y1)};
+    }
+    int left_of(int tile) const { return (first_column_ + tile % across_) * tile_samples(); }
+    int top_of(int tile) const { return (first_row_ + tile / across_) * tile_samples(); }
+
+    /// f(tile) for each that has some of the samples, which are drawn ones.
+    template <class F>
+    void for_each_tile(const SampleBox& samples, F&& f) const {
+        const int x0 = along(samples.x0) - first_column_, x1 = along(samples.x1 - 1) - first_column_,
+                  y0 = along(samples.y0) - first_row_, y1 = along(samples.y1 - 1) - first_row_;
+        for (int y = y0; y <= y1; ++y) {
+            for (int x = x0; x <= x1; ++x) {
+                f(static_cast<std::size_t>(y * across_ + x));
+            }
+        }
+    }
+
+private:
+    /// sample / tile_samples(), exactly for samples below 2^26.
+    int along(std::int32_t sample) const {
+        return static_cast<int>((static_cast<std::uint64_t>(sample) * inverse_) >> 32U);
+    }
+
+    int samples_, pixels_;
+    Crop crop_;
+    SampleBox box_;
+    int first_column_, first_row_, across_, down_;
+    std::uint64_t inverse_; ///< 2^32 / tile_samples(), rounded up
+};
+
+/// What one run of triangles or lines has for each tile, in their order.
+template <class R>
+struct Bin {
+    std::vector<ScreenTriangle<R>> triangles;
+    std::vector<ScreenLine<R>> lines;
+    std::vector<std::vector<std::uint32_t>> triangles_of; ///< of each tile
+    std::vector<std::vector<std::uint32_t>> lines_of;     ///< of each tile
+
+    /// Keeps the memory.
+    void clear(const TileGrid& tiles) {
+        triangles.clear();
+        lines.clear();
+        const auto tile_count = static_cast<std::size_t>(tiles.count());
+        for (auto* lists : {&triangles_of, &lines_of}) {
+            for (auto& list : *lists) {
+                list.clear();
+            }
+            lists->resize(tile_count);
+        }
+    }
+    void add(const ScreenTriangle<R>& t, const SampleBox& box, const TileGrid& tiles) {
+        const auto index = static_cast<std::uint32_t>(triangles.size());
+        triangles.push_back(t);
+        tiles.for_each_tile(box, [&](std::size_t tile) { triangles_of[tile].push_back(index); });
+    }
+    void add(const ScreenLine<R>& line, const SampleBox& box, const TileGrid& tiles) {
+        const auto index = static_cast<std::uint32_t>(lines.size());
+        lines.push_back(line);
+        tiles.for_each_tile(box, [&](std::size_t tile) { lines_of[tile].push_back(index); });
+    }
+};
+
+/// Whole numbers beside a pack of reals.
+template <class L>
+using GridPack = runtime::detail::VectorType<std::int32_t, lane_count<L>>;
+
+/// The lanes that are not 0 in what a comparison gives.
+template <class L>
+unsigned grid_bits_of(const GridPack<L>& compared) {
+    if constexpr (lane_count<L> == 1) {
+        return compared[0] != 0 ? 1U : 0U;
+    } else {
+        return bits(PackMask<float, lane_count<L>>(
+            reinterpret_cast<typename PackMask<float, lane_count<L>>::Vector>(compared)));
+    }
+}
+
+/// The nearest place on the grid, from a first sample's centre, of a coordinate in samples; of two the even
+/// one.
+template <class T, int N>
+GridPack<Pack<T, N>> on_grid(const Pack<T, N>& x) {
+    const Pack<T, N> nearest =
+        runtime::detail::to_nearest_whole((x - Pack<T, N>(T(0.5))) * Pack<T, N>(T(grid)));
+    return __builtin_convertvector(nearest.v, GridPack<Pack<T, N>>);
+}
+template <std::floating_point T>
+std::int32_t on_grid(T x) {
+    return on_grid(Pack<T, 2>(x))[0];
+}
+
+} // namespace scc::runtime::raster

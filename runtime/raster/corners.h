@@ -1,0 +1,96 @@
+#pragma once
+
+#include "runtime/mesh_trace.h"
+#include "runtime/raster/model.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+
+/// The corners of a model's triangles, wherever they lie.
+namespace scc::runtime::raster {
+
+template <class R>
+struct WorldTriangle {
+    std::array<Vec3<R>, 3> corners;
+    std::array<R, 3> weights{1, 1, 1}; ///< 0: the corner is a direction
+};
+
+/// Triangle `i` of those of a surface. `meshes`: the scene's.
+template <class R, class Meshes>
+WorldTriangle<R> world_triangle(const RasterModel<R>& model, const Meshes& meshes,
+                                const RasterSurface<R>& surface, std::uint32_t i) {
+    WorldTriangle<R> result;
+    if (surface.is_mesh) {
+        const MeshData& mesh = meshes[surface.mesh];
+        const Corners<R> corners = corners_at<R>(mesh, place_of(model.mesh_parts[surface.mesh][i]));
+        result.corners = {corners.a, corners.b, corners.c};
+        if (surface.is_placed) {
+            for (Vec3<R>& corner : result.corners) {
+                corner = transform_point(surface.world_from_object, corner);
+            }
+        }
+        return result;
+    }
+    const RasterTriangle& triangle = model.triangles[surface.own + i];
+    for (std::size_t k = 0; k < 3; ++k) {
+        result.corners[k] = model.positions[triangle.positions[k]];
+        result.weights[k] = surface.at_infinity && k != 0 ? R(0) : R(1);
+    }
+    return result;
+}
+
+/// Normals at its corners, for shading, or 0 where a mesh has none. Those of a placed mesh are not of unit
+/// length, so that interpolating them is linear as in its own space.
+template <class R, class Meshes>
+std::array<Vec3<R>, 3> world_normals(const RasterModel<R>& model, const Meshes& meshes,
+                                     const RasterSurface<R>& surface, std::uint32_t i) {
+    std::array<Vec3<R>, 3> normals{};
+    if (!surface.is_mesh) {
+        const RasterTriangle& triangle = model.triangles[surface.own + i];
+        for (std::size_t k = 0; k < 3; ++k) {
+            normals[k] = model.normals[triangle.normals[k]];
+        }
+        return normals;
+    }
+    const MeshData& mesh = meshes[surface.mesh];
+    if (mesh.normals != nullptr) {
+        const TrianglePlace place = place_of(model.mesh_parts[surface.mesh][i]);
+        const std::uint32_t* index = mesh.normal_indices + std::size_t{3} * triangle_id(mesh, place);
+        for (std::size_t k = 0; k < 3; ++k) {
+            normals[k] = read_vector<R>(mesh.normals, index[k]);
+            if (surface.is_placed) {
+                normals[k] = transform_normal(surface.object_from_world, normals[k]);
+            }
+        }
+    }
+    return normals;
+}
+
+/// As ShapeHit::part.
+template <class R>
+std::uint32_t part_of_triangle(const RasterModel<R>& model, const RasterSurface<R>& surface,
+                               std::uint32_t i) {
+    return surface.is_mesh ? model.mesh_parts[surface.mesh][i] : model.triangles[surface.own + i].part;
+}
+
+/// Its number among those of its object in the source.
+template <class R, class Meshes>
+std::uint32_t rank_of_triangle(const RasterModel<R>& model, const Meshes& meshes,
+                               const RasterSurface<R>& surface, std::uint32_t i) {
+    return surface.is_mesh ? triangle_id(meshes[surface.mesh], place_of(model.mesh_parts[surface.mesh][i]))
+                           : i;
+}
+
+/// The surface that a triangle of the model belongs to.
+template <class R>
+const RasterSurface<R>& surface_of_triangle(const RasterModel<R>& model, std::uint32_t triangle) {
+    const auto after =
+        std::upper_bound(model.surfaces.begin(), model.surfaces.end(), triangle,
+                         [](std::uint32_t t, const RasterSurface<R>& surface) { return t < surface.first; });
+    return *std::prev(after);
+}
+
+} // namespace scc::runtime::raster

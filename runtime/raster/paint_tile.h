@@ -1,0 +1,413 @@
+#pragma once
+
+#include "runtime/aov.h"
+#include "runtime/image.h"
+#include "runtime/raster/fill.h"
+#include "runtime/raster/lines.h"
+#include "runtime/raster/shade_triangles.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+/// The second stage: from a tile's triangles to its pixels.
+namespace scc::runtime::raster {
+
+/// Finds what is nearest at each sample first, and lights only that. What lets light through comes last: of
+/// each sample, all such surfaces in front of the nearest opaque one, from the farthest on, so that those
+/// that cross each other are right as well.
+template <SceneModel S, class L>
+class TilePainter {
+    using R = typename S::Real;
+    static constexpr int N = lane_count<L>;
+    using Buffer = TileBuffer<L>;
+    using Shader = TriangleShader<S, L>;
+
+public:
+    TilePainter(const S& scene, const RasterModel<R>& model, const RasterView<R>& view, const TileGrid& tiles,
+                const std::vector<Bin<R>>& bins, RasterShading shading)
+        : scene_(scene), model_(model), view_(view), tiles_(tiles), bins_(bins),
+          shader_(scene, model, view, shading), light_(Buffer::samples / N) {}
+
+    /// Finds what the tile's samples show.
+    void show(int tile) {
+        const auto index = static_cast<std::size_t>(tile);
+        entries_.clear();
+        through_.clear();
+        const bool is_empty = std::all_of(bins_.begin(), bins_.end(), [&](const Bin<R>& bin) {
+            return bin.triangles_of[index].empty() && bin.lines_of[index].empty();
+        });
+        if (is_empty) {
+            return;
+        }
+        buffer_.clear(tiles_.left_of(tile), tiles_.top_of(tile),
+                      view_.clips_depth() ? R(1) : std::numeric_limits<R>::max());
+        shader_.start(buffer_.left(), buffer_.top());
+        const auto earlier = [this](std::uint32_t a, std::uint32_t b) { return is_earlier(a, b); };
+        for (const Bin<R>& bin : bins_) {
+            for (const std::uint32_t i : bin.triangles_of[index]) {
+                const ScreenTriangle<R>& t = bin.triangles[i];
+                const std::uint32_t entry = add_entry(t.id);
+                if (S::traits.transmission && (t.id & lets_light_through) != 0) {
+                    through_.push_back({&t, entry});
+                } else {
+                    buffer_.fill(t, entry, earlier);
+                }
+            }
+        }
+        first_line_ = static_cast<std::uint32_t>(entries_.size());
+        if constexpr (S::traits.lines) {
+            for (const Bin<R>& bin : bins_) {
+                for (const std::uint32_t i : bin.lines_of[index]) {
+                    const ScreenLine<R>& line = bin.lines[i];
+                    const std::uint32_t entry = add_entry(line.segment);
+                    const SampleBox box{buffer_.left(), buffer_.top(), buffer_.left() + Buffer::size,
+                                        buffer_.top() + Buffer::size};
+                    draw_line(line, box, [&](std::int32_t column, std::int32_t row, const R& z) {
+                        buffer_.put(column, row, z, entry);
+                    });
+                }
+            }
+        }
+    }
+
+    /// Its pixels' light, and z* if asked for, into pictures of the crop's size.
+    void paint(int tile, const Crop& crop, Image& image, std::vector<R>* pseudodepth) {
+        const Crop pixels = tiles_.pixels_of(tile);
+        if (entries_.empty()) {
+            store_background(pixels, crop, image);
+            if (pseudodepth != nullptr) {
+                store_no_depth(pixels, crop, image.width, *pseudodepth);
+            }
+            return;
+        }
+        if constexpr (S::traits.transmission) {
+            find_fragments();
+        }
+        number_samples(pixels);
+        shader_.prepare();
+        shade(pixels);
+        if constexpr (S::traits.transmission) {
+            blend();
+        }
+        store(pixels, crop, image);
+        if (pseudodepth != nullptr) {
+            store_depth(pixels, crop, image.width, *pseudodepth);
+        }
+    }
+
+    /// What its pixels' centres show beside light; see draw_raster_aovs.
+    void store_aovs(int tile, const Crop& crop, AovImage& to) {
+        const Crop pixels = tiles_.pixels_of(tile);
+        const bool is_empty = entries_.empty();
+        if (!is_empty) {
+            number_samples(pixels);
+            shader_.prepare();
+        }
+        const int left = tiles_.left_of(tile), top = tiles_.top_of(tile);
+        for (int y = pixels.y0; y < pixels.y1; ++y) {
+            for (int x = pixels.x0; x < pixels.x1; ++x) {
+                const std::size_t i =
+                    static_cast<std::size_t>(y - crop.y0) * static_cast<std::size_t>(to.width) +
+                    static_cast<std::size_t>(x - crop.x0);
+                const std::uint32_t entry =
+                    is_empty ? no_entry : buffer_.entry(Buffer::sample_of(x - left, y - top));
+                store_aovs(x - left, y - top, entry, i, to);
+            }
+        }
+    }
+
+private:
+    /// A triangle or line that the tile may show.
+    struct Entry {
+        std::uint32_t id;     ///< of a line its segment
+        std::uint32_t number; ///< that the shader has given it, or no_entry
+    };
+    struct Through {
+        const ScreenTriangle<R>* triangle;
+        std::uint32_t entry;
+    };
+    /// What one sample shows of what lets light through.
+    struct Fragment {
+        std::uint32_t sample; ///< of the buffer
+        std::uint32_t entry;
+        R z;
+    };
+
+    std::uint32_t add_entry(std::uint32_t id) {
+        entries_.push_back({id, no_entry});
+        return static_cast<std::uint32_t>(entries_.size() - 1);
+    }
+    /// Of two triangles at the same depth: in the source. A mesh's are not kept in the source's order.
+    bool is_earlier(std::uint32_t a, std::uint32_t b) const {
+        const std::uint32_t first = entries_[a].id & triangle_number,
+                            second = entries_[b].id & triangle_number;
+        const RasterSurface<R>&one = surface_of_triangle(model_, first),
+              &other = surface_of_triangle(model_, second);
+        if (&one != &other) {
+            return first < second;
+        }
+        return rank_of_triangle(model_, scene_.meshes, one, first - one.first) <
+               rank_of_triangle(model_, scene_.meshes, other, second - other.first);
+    }
+    std::uint32_t number_of(std::uint32_t entry) {
+        Entry& e = entries_[entry];
+        if (e.number == no_entry) {
+            e.number = entry < first_line_ ? shader_.add(e.id) : shader_.add(model_.segments[e.id].color);
+        }
+        return e.number;
+    }
+
+    void find_fragments() {
+        fragments_.clear();
+        const auto earlier = [this](std::uint32_t a, std::uint32_t b) {
+            return b >= first_line_ || is_earlier(a, b);
+        };
+        for (const Through& t : through_) {
+            buffer_.visit(*t.triangle, t.entry, earlier, [&](std::uint32_t sample, const R& z) {
+                fragments_.push_back({sample, t.entry, z});
+                number_of(t.entry);
+            });
+        }
+        std::sort(fragments_.begin(), fragments_.end(), [this](const Fragment& a, const Fragment& b) {
+            return a.sample != b.sample ? a.sample < b.sample
+                   : a.z != b.z         ? a.z > b.z
+                                        : is_earlier(b.entry, a.entry);
+        });
+    }
+
+    /// The blocks that have some of the pixels: f(block, its first column and row in the tile).
+    template <class F>
+    void for_each_block(const Crop& pixels, F&& f) const {
+        const int n = tiles_.samples_across();
+        const int x0 = (pixels.x0 * n - buffer_.left()) / Buffer::block_width * Buffer::block_width,
+                  y0 = (pixels.y0 * n - buffer_.top()) / Buffer::block_height * Buffer::block_height,
+                  x1 = pixels.x1 * n - buffer_.left(), y1 = pixels.y1 * n - buffer_.top();
+        for (int y = y0; y < y1; y += Buffer::block_height) {
+            for (int x = x0; x < x1; x += Buffer::block_width) {
+                f(Buffer::block_of(x, y), x, y);
+            }
+        }
+    }
+
+    void number_samples(const Crop& pixels) {
+        std::uint32_t last = no_entry;
+        for_each_block(pixels, [&](std::size_t block, int, int) {
+            if (all(buffer_.shows(block, last))) {
+                return;
+            }
+            const auto& entries = buffer_.entries(block);
+            for (int k = 0; k < N; ++k) {
+                if (entries[k] != last) {
+                    last = entries[k];
+                    if (last != no_entry) {
+                        number_of(last);
+                    }
+                }
+            }
+        });
+    }
+
+    void shade(const Crop& pixels) {
+        const Rgb<L> background = lanes<L>(Rgb<R>(scene_.background));
+        for_each_block(pixels, [&](std::size_t block, int x, int y) {
+            const auto active = buffer_.shown(block);
+            if (none(active)) {
+                light_[block] = background;
+                return;
+            }
+            typename Shader::Numbers numbers;
+            const auto& entries = buffer_.entries(block);
+            const std::uint32_t some = entries[first_lane(active)];
+            if (all(buffer_.shows(block, some))) {
+                numbers.fill(entries_[some].number);
+            } else {
+                for (int k = 0; k < N; ++k) {
+                    const std::uint32_t entry = entries[k] == no_entry ? some : entries[k];
+                    numbers[static_cast<std::size_t>(k)] = entries_[entry].number;
+                }
+            }
+            const L column = buffer_.columns() + L(static_cast<R>(x)),
+                    row = buffer_.rows() + L(static_cast<R>(y));
+            const Rgb<L> light = shader_.shade(numbers, column, row, active).light;
+            light_[block] = all(active) ? light : choose(active, light, background);
+        });
+    }
+
+    static int column_of(std::uint32_t sample) {
+        const auto block = static_cast<int>(sample / N), k = static_cast<int>(sample % N);
+        return block % Buffer::blocks_across * Buffer::block_width + k % Buffer::block_width;
+    }
+    static int row_of(std::uint32_t sample) {
+        const auto block = static_cast<int>(sample / N), k = static_cast<int>(sample % N);
+        return block / Buffer::blocks_across * Buffer::block_height + k / Buffer::block_width;
+    }
+    /// Each fragment's own light, and the part of what is behind it that it leaves.
+    void blend() {
+        for (std::size_t i = 0; i < fragments_.size(); i += N) {
+            const int count = static_cast<int>(std::min<std::size_t>(N, fragments_.size() - i));
+            typename Shader::Numbers numbers;
+            L column, row;
+            MaskOf<L> active(false);
+            for (int k = 0; k < N; ++k) {
+                const Fragment& fragment = fragments_[i + static_cast<std::size_t>(std::min(k, count - 1))];
+                numbers[static_cast<std::size_t>(k)] = entries_[fragment.entry].number;
+                set_lane(column, k, static_cast<R>(column_of(fragment.sample)));
+                set_lane(row, k, static_cast<R>(row_of(fragment.sample)));
+                set_lane(active, k, k < count);
+            }
+            const Seen<L> seen = shader_.shade(numbers, column, row, active);
+            for (int k = 0; k < count; ++k) {
+                const std::uint32_t sample = fragments_[i + static_cast<std::size_t>(k)].sample;
+                Rgb<L>& to = light_[sample / N];
+                const int at = static_cast<int>(sample % N);
+                const auto put = [&](L& channel, const L& light, const L& transmit) {
+                    set_lane(channel, at, lane(light, k) + lane(transmit, k) * lane(channel, at));
+                };
+                put(to.r, seen.light.r, seen.transmit.r);
+                put(to.g, seen.light.g, seen.transmit.g);
+                put(to.b, seen.light.b, seen.transmit.b);
+            }
+        }
+    }
+
+    /// + 0 as in ray pictures: no -0.
+    void store(const Crop& pixels, const Crop& crop, Image& image) const {
+        const int n = tiles_.samples_across();
+        if (n == 1) {
+            store_samples(pixels, crop, image);
+            return;
+        }
+        for (int y = pixels.y0; y < pixels.y1; ++y) {
+            float* to = image.at(pixels.x0 - crop.x0, y - crop.y0);
+            for (int x = pixels.x0; x < pixels.x1; ++x, to += 3) {
+                Rgb<R> sum{};
+                for (int j = 0; j < n; ++j) {
+                    for (int i = 0; i < n; ++i) {
+                        sum = sum + light_at(x * n + i - buffer_.left(), y * n + j - buffer_.top());
+                    }
+                }
+                const R count = static_cast<R>(n * n);
+                to[0] = static_cast<float>(sum.r / count) + 0.0F;
+                to[1] = static_cast<float>(sum.g / count) + 0.0F;
+                to[2] = static_cast<float>(sum.b / count) + 0.0F;
+            }
+        }
+    }
+    /// One for each pixel.
+    void store_samples(const Crop& pixels, const Crop& crop, Image& image) const {
+        for_each_block(pixels, [&](std::size_t block, int column, int row) {
+            R red[N], green[N], blue[N];
+            store_lanes(red, light_[block].r);
+            store_lanes(green, light_[block].g);
+            store_lanes(blue, light_[block].b);
+            const int x = buffer_.left() + column, y = buffer_.top() + row;
+            const int x0 = std::max(x, pixels.x0), x1 = std::min(x + Buffer::block_width, pixels.x1),
+                      y0 = std::max(y, pixels.y0), y1 = std::min(y + Buffer::block_height, pixels.y1);
+            for (int j = y0; j < y1; ++j) {
+                float* to = image.at(x0 - crop.x0, j - crop.y0);
+                int k = (j - y) * Buffer::block_width + x0 - x;
+                for (int i = x0; i < x1; ++i, ++k, to += 3) {
+                    to[0] = static_cast<float>(red[k]) + 0.0F;
+                    to[1] = static_cast<float>(green[k]) + 0.0F;
+                    to[2] = static_cast<float>(blue[k]) + 0.0F;
+                }
+            }
+        });
+    }
+    void store_background(const Crop& pixels, const Crop& crop, Image& image) const {
+        const Rgb<R> background(scene_.background);
+        const float color[] = {static_cast<float>(background.r) + 0.0F,
+                               static_cast<float>(background.g) + 0.0F,
+                               static_cast<float>(background.b) + 0.0F};
+        float* const first = image.at(pixels.x0 - crop.x0, pixels.y0 - crop.y0);
+        const std::ptrdiff_t numbers = std::ptrdiff_t{3} * (pixels.x1 - pixels.x0);
+        for (std::ptrdiff_t i = 0; i < numbers; ++i) {
+            first[i] = color[i % 3];
+        }
+        for (int y = pixels.y0 + 1; y < pixels.y1; ++y) {
+            std::copy_n(first, numbers, image.at(pixels.x0 - crop.x0, y - crop.y0));
+        }
+    }
+    Rgb<R> light_at(int column, int row) const {
+        const std::size_t sample = Buffer::sample_of(column, row);
+        const Rgb<L>& light = light_[sample / N];
+        const int k = static_cast<int>(sample % N);
+        return {lane(light.r, k), lane(light.g, k), lane(light.b, k)};
+    }
+
+    static void store_no_depth(const Crop& pixels, const Crop& crop, int width, std::vector<R>& to) {
+        for (int y = pixels.y0; y < pixels.y1; ++y) {
+            const auto first = to.begin() + std::ptrdiff_t{y - crop.y0} * width + (pixels.x0 - crop.x0);
+            std::fill(first, first + (pixels.x1 - pixels.x0), R(1));
+        }
+    }
+    void store_depth(const Crop& pixels, const Crop& crop, int width, std::vector<R>& to) const {
+        const int n = tiles_.samples_across();
+        for (int y = pixels.y0; y < pixels.y1; ++y) {
+            for (int x = pixels.x0; x < pixels.x1; ++x) {
+                const int column = x * n + n / 2 - buffer_.left(), row = y * n + n / 2 - buffer_.top();
+                const bool is_shown = buffer_.entry(Buffer::sample_of(column, row)) != no_entry;
+                to[static_cast<std::size_t>(y - crop.y0) * static_cast<std::size_t>(width) +
+                   static_cast<std::size_t>(x - crop.x0)] = is_shown ? buffer_.depth(column, row) : R(1);
+            }
+        }
+    }
+
+    void store_aovs(int column, int row, std::uint32_t entry, std::size_t i, AovImage& to) const {
+        const auto put = [i](auto& list, auto value) {
+            if (!list.empty()) {
+                using T = std::decay_t<decltype(list[0])>;
+                list[i] = static_cast<T>(value) + T(0);
+            }
+        };
+        const auto put_vector = [&](std::array<std::vector<float>, 3>& lists, const Vec3<L>& v) {
+            put(lists[0], lane(v.x, 0));
+            put(lists[1], lane(v.y, 0));
+            put(lists[2], lane(v.z, 0));
+        };
+        if (entry == no_entry) {
+            put(to.depth, std::numeric_limits<float>::infinity());
+            put(to.planar, std::numeric_limits<float>::infinity());
+            put_vector(to.position, {});
+            put_vector(to.normal, {});
+            put(to.uv[0], 0.0F);
+            put(to.uv[1], 0.0F);
+            put(to.object, 0U);
+            put(to.material, 0U);
+            return;
+        }
+        typename Shader::Numbers numbers;
+        numbers.fill(entries_[entry].number);
+        MaskOf<L> one(false);
+        set_lane(one, 0, true);
+        const auto at =
+            shader_.template place<true>(numbers, L(static_cast<R>(column)), L(static_cast<R>(row)), one);
+        put(to.depth, lane(at.ahead * length(at.dir), 0));
+        put(to.planar, lane(at.ahead, 0));
+        put_vector(to.position, at.point.world);
+        put_vector(to.normal, at.normal);
+        put(to.uv[0], lane(at.point.uv.x, 0));
+        put(to.uv[1], lane(at.point.uv.y, 0));
+        put(to.object, shader_.object_of(entries_[entry].number) + 1);
+        put(to.material, lane(at.material, 0) + 1);
+    }
+
+    const S& scene_;
+    const RasterModel<R>& model_;
+    const RasterView<R>& view_;
+    const TileGrid& tiles_;
+    const std::vector<Bin<R>>& bins_;
+    Shader shader_;
+    Buffer buffer_;
+    std::vector<Rgb<L>> light_; ///< of each block
+    std::vector<Entry> entries_;
+    std::uint32_t first_line_ = 0; ///< entries from here on are lines
+    std::vector<Through> through_;
+    std::vector<Fragment> fragments_;
+};
+
+} // namespace scc::runtime::raster

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "runtime/math/pack.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+
+/// Triangles and lines on the grid of samples, after the division.
+namespace scc::runtime::raster {
+
+/// Corners lie on a grid of 1/256 of a sample, so that what is covered can be told exactly; so do llvmpipe's.
+inline constexpr int grid_bits = 8;
+inline constexpr int grid = 1 << grid_bits;
+
+/// The number of a triangle in the model, with what is told of it beside.
+inline constexpr std::uint32_t seen_from_back = 1U << 30;
+inline constexpr std::uint32_t lets_light_through = 1U << 31;
+inline constexpr std::uint32_t triangle_number = seen_from_back - 1;
+
+/// A triangle as it is filled. Coordinates are on the grid, from the centre of the picture's first sample;
+/// the corners run so that edge functions are positive inside.
+template <class R>
+struct ScreenTriangle {
+    std::array<std::int32_t, 3> x, y;
+    R z, z_x, z_y; ///< z* at the centre of sample z_sample(), and its change from sample to sample
+    std::uint32_t id;
+
+    std::int32_t z_column() const { return x[0] >> grid_bits; }
+    std::int32_t z_row() const { return y[0] >> grid_bits; }
+};
+
+/// Samples [x0, x1) x [y0, y1).
+struct SampleBox {
+    std::int32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+
+    bool empty() const { return x0 >= x1 || y0 >= y1; }
+};
+
+inline SampleBox intersection(const SampleBox& a, const SampleBox& b) {
+    return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+}
+
+/// The samples whose centres are in a triangle's bounding box.
+template <class R>
+SampleBox box_of(const ScreenTriangle<R>& t) {
+    const auto [x0, x1] = std::minmax({t.x[0], t.x[1], t.x[2]});
+    const auto [y0, y1] = std::minmax({t.y[0], t.y[1], t.y[2]});
+    return {(x0 + grid - 1) >> grid_bits, (y0 + grid - 1) >> grid_bits, (x1 >> grid_bits) + 1,
+            (y1 >> grid_bits) + 1};
+}
+
+/// A line as it is drawn: on the same grid, and in the direction in which it runs.
+template <class R>
+struct ScreenLine {
+    std::int32_t x0, y0, x1, y1;
+    R z, z_step; ///< z* at the centre of the start's sample along the longer direction, and its change per
+                 ///< sample
+    std::uint32_t segment; ///< of RasterModel::segments
+    std::int32_t width;    ///< in samples
+};
+
+/// More across than down.
+template <class R>
+bool runs_across(const ScreenLine<R>& line) {
+    return std::abs(std::int64_t{line.x1} - line.x0) >= std::abs(std::int64_t{line.y1} - line.y0);
+}
+
+} // namespace scc::runtime::raster

@@ -1,0 +1,374 @@
+#include "runtime/raster/draw.h"
+#include "runtime/render.h"
+#include "runtime/test/random_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace scc::runtime::test {
+
+namespace {
+
+/// What the scenes here need; kernels are compiled for nothing else.
+template <class R_>
+struct RasterScene : SceneBase<R_> {
+    using R = R_;
+    static constexpr SceneTraits traits{.bare_shapes = 1U << 0 | 1U << 2 | 1U << 6,
+                                        .placed_shapes = 1U << 7,
+                                        .point_lights = true,
+                                        .specular = true,
+                                        .transmission = true,
+                                        .two_sided = true,
+                                        .functions = true,
+                                        .smooth_normals = true,
+                                        .perspective = true,
+                                        .raster = true,
+                                        .lines = true};
+    template <class Primitive>
+    const std::vector<Primitive>& primitives(Of<Primitive>) const {
+        return std::get<std::vector<Primitive>>(tables.tables);
+    }
+    template <class Primitive>
+    void add(const Primitive& primitive) {
+        std::get<std::vector<Primitive>>(tables.tables).push_back(primitive);
+    }
+    using SceneBase<R>::members;
+    /// A chequer of the object's own space.
+    template <class L>
+    Rgb<L> color_function(std::int32_t, const SurfacePoint<L>& s) const {
+        const L odd = floored_mod(round_down(s.p.x * 2) + round_down(s.p.z * 2), L(2));
+        return {odd, odd * L(R(0.5)), L(R(0.5))};
+    }
+
+    PrimitiveTables<R> tables;
+    std::vector<Phong<R>> materials;
+    std::vector<PointLight<R>> point_lights;
+    std::vector<MeshData> meshes;
+    std::vector<LineSegment<R>> line_segments;
+    Camera<R> camera;
+    Rgb<R> ambient{R(0.3), R(0.3), R(0.3)}, background{R(0.1), R(0.2), R(0.3)};
+};
+
+template <class R>
+Phong<R> phong(double red, double green, double blue) {
+    const Rgb<R> color{static_cast<R>(red), static_cast<R>(green), static_cast<R>(blue)};
+    return {
+        .ambient = {color}, .diffuse = {color}, .specular = {{R(0.4), R(0.4), R(0.4)}}, .shininess = {20}};
+}
+
+template <class R>
+Camera<R> camera_at(const Vec3<R>& eye, const Vec3<R>& target) {
+    Camera<R> camera;
+    camera.eye = eye;
+    camera.n = normalize(eye - target);
+    camera.u = normalize(cross(Vec3<R>{0, 1, 0}, camera.n));
+    camera.v = cross(camera.n, camera.u);
+    return camera;
+}
+
+/// A smooth, a flat and a clear surface, lines, and a plane without end.
+template <class R>
+RasterScene<R> varied_scene() {
+    RasterScene<R> scene;
+    scene.camera = camera_at<R>({1, 2, 6}, {0, R(0.3), 0});
+    scene.materials = {phong<R>(0.8, 0.3, 0.2), phong<R>(0.2, 0.5, 0.3), phong<R>(0.3, 0.3, 0.1)};
+    scene.materials[1].diffuse.function = 0;
+    scene.materials[2].transmit.value = {R(0.6), R(0.6), R(0.6)};
+    scene.point_lights = {{.position = {3, 4, 5}}};
+    scene.add(Bare<Sphere<R>>{{{0, R(0.5), 0}, 1}, {0, {0, 0}}});
+    scene.add(Bare<Plane<R>>{{{0, 1, 0}, -1}, {1, {1, 1}}});
+    Triangle<R> clear;
+    clear.points = {Vec3<R>{-2, -1, 1}, {2, R(-0.5), 2}, {R(0.5), 2, 1}};
+    scene.add(Bare<Triangle<R>>{clear, {2, {2, 2}}});
+    scene.line_segments = {{{-2, 0, 2}, {0, R(1.5), R(1.2)}, {1, 1, 0}, 3},
+                           {{0, R(1.5), R(1.2)}, {2, 0, -3}, {1, 1, 0}, 3}};
+    return scene;
+}
+
+RenderRequest request(int width, int height, RasterShading shading = RasterShading::phong) {
+    RenderRequest result;
+    result.settings.width = width;
+    result.settings.height = height;
+    result.settings.shadows = false;
+    result.settings.raster.shading = shading;
+    result.settings.raster.tessellation = 0.002;
+    result.crop = {0, 0, width, height};
+    return result;
+}
+
+template <class L, class R>
+Image draw_with(const RasterScene<R>& scene, const RenderRequest& wanted) {
+    Image image(wanted.crop.x1 - wanted.crop.x0, wanted.crop.y1 - wanted.crop.y0);
+    draw_raster_with_lanes<L>(scene, raster_model(scene, wanted.settings), wanted, image);
+    return image;
+}
+template <class R>
+Image draw(const RasterScene<R>& scene, const RenderRequest& wanted) {
+    return draw_with<WidestLane<R>>(scene, wanted);
+}
+/// Without shadows and mirrors, which raster pictures lack.
+template <class R>
+Image draw_by_rays(const RasterScene<R>& scene, const RenderRequest& wanted) {
+    Image image(wanted.settings.width, wanted.settings.height);
+    render(scene, wanted, image);
+    return image;
+}
+
+constexpr std::array<RasterShading, 5> all_shadings{RasterShading::flat, RasterShading::gouraud,
+                                                    RasterShading::phong, RasterShading::wireframe,
+                                                    RasterShading::hidden_line};
+
+TEST(Raster, DrawsTheSameBitsWithAnyLanesThreadsAndCrop) {
+    using Other = Pack<float, lane_count<WidestLane<float>> == 8 ? 4 : 8>;
+    const auto scene = varied_scene<float>();
+    for (const RasterShading shading : all_shadings) {
+        RenderRequest wanted = request(150, 97, shading);
+        wanted.settings.samples = 4;
+        const Image whole = draw(scene, wanted);
+        EXPECT_EQ(draw_with<Other>(scene, wanted).pixels, whole.pixels);
+        wanted.threads = 3;
+        EXPECT_EQ(draw(scene, wanted).pixels, whole.pixels);
+        wanted.crop = {37, 11, 103, 80};
+        const Image part = draw_with<Other>(scene, wanted);
+        for (int y = 0; y < part.height; ++y) {
+            for (int x = 0; x < part.width; ++x) {
+                for (int c = 0; c < 3; ++c) {
+                    ASSERT_EQ(part.at(x, y)[c], whole.at(x + 37, y + 11)[c]) << x << ' ' << y;
+                }
+            }
+        }
+    }
+}
+
+double root_mean_square(const Image& a, const Image& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        sum += std::pow(double(a.pixels[i]) - double(b.pixels[i]), 2);
+    }
+    return std::sqrt(sum / static_cast<double>(a.pixels.size()));
+}
+
+/// Colours of a sphere by interpolated normals: their error goes down with the square of the triangles' size,
+/// as does the distance that the tolerance bounds.
+TEST(Raster, ComesNearToRaysWithTheTolerance) {
+    RasterScene<double> scene;
+    scene.camera = camera_at<double>({1, 2, 6}, {0, 0, 0});
+    scene.materials = {phong<double>(0.8, 0.3, 0.2)};
+    scene.point_lights = {{.position = {3, 4, 5}}};
+    scene.add(Bare<Sphere<double>>{{{0, 0, 0}, 4}, {0, {0, 0}}}); // fills the picture: no silhouette
+    RenderRequest wanted = request(120, 90);
+    const Image rays = draw_by_rays(scene, wanted);
+    std::vector<double> errors;
+    for (const double tessellation : {0.002, 0.0005, 0.000125}) {
+        wanted.settings.raster.tessellation = tessellation;
+        errors.push_back(root_mean_square(draw(scene, wanted), rays));
+    }
+    EXPECT_LT(errors.back(), 2e-4);
+    for (std::size_t i = 1; i < errors.size(); ++i) {
+        EXPECT_NEAR(std::log2(errors[i - 1] / errors[i]), 2, 0.7) << errors[i - 1] << ' ' << errors[i];
+    }
+}
+
+TEST(Raster, SeesEndlessPlanesAndFunctionsAsRaysDo) {
+    RasterScene<double> scene;
+    scene.camera = camera_at<double>({1, 2, 6}, {0, 0.3, 0});
+    scene.camera.far = 1e6;
+    scene.materials = {phong<double>(0.8, 0.3, 0.2)};
+    scene.point_lights = {{.position = {3, 4, 5}}};
+    scene.add(Bare<Plane<double>>{{{0, 1, 0}, -1}, {0, {0, 0}}});
+    const RenderRequest wanted = request(120, 90);
+    const Image rays = draw_by_rays(scene, wanted);
+    EXPECT_LT(root_mean_square(draw(scene, wanted), rays), 1e-6);
+}
+
+TEST(Raster, BlendsWhatLetsLightThroughAsRaysDo) {
+    RasterScene<double> scene;
+    scene.camera = camera_at<double>({0, 0, 5}, {0, 0, 0});
+    scene.materials = {phong<double>(0.8, 0.3, 0.2), phong<double>(0.2, 0.5, 0.3)};
+    scene.materials[0].transmit.value = {0.5, 0.3, 0.2};
+    scene.materials[1].transmit.value = {0.2, 0.6, 0.6};
+    scene.point_lights = {{.position = {3, 4, 5}}};
+    Triangle<double> one, other; // that cross each other
+    one.points = {Vec3<double>{-2, -1.5, 1}, {2, -1, -1}, {0.1, 1.7, 0.2}};
+    other.points = {Vec3<double>{-2, -1, -1}, {2, -1.3, 1}, {0.2, 1.6, 0.1}};
+    scene.add(Bare<Triangle<double>>{one, {0, {0, 1}}});
+    scene.add(Bare<Triangle<double>>{other, {1, {1, 0}}});
+    const RenderRequest wanted = request(120, 90);
+    const Image rays = draw_by_rays(scene, wanted);
+    const Image drawn = draw(scene, wanted);
+    int differing = 0;
+    for (std::size_t i = 0; i < rays.pixels.size(); ++i) {
+        differing += std::abs(drawn.pixels[i] - rays.pixels[i]) > 1e-5F;
+    }
+    EXPECT_LE(differing, 12); // where an edge is put on the grid
+}
+
+/// A grid of triangles that fills the picture: where edges are shared, each sample is drawn once. Each lets a
+/// part of the light through, so that twice would show.
+TEST(Raster, DrawsSharedEdgesOnce) {
+    RasterScene<float> scene;
+    scene.camera = camera_at<float>({0, 0, 5}, {0, 0, 0});
+    scene.materials = {phong<float>(0, 0, 0)};
+    scene.materials[0].specular.value = {};
+    scene.materials[0].transmit.value = {0.5F, 0.5F, 0.5F};
+    Random<float> random(7);
+    constexpr int cells = 9;
+    std::array<std::array<Vec3<float>, cells + 1>, cells + 1> points;
+    for (int i = 0; i <= cells; ++i) {
+        for (int k = 0; k <= cells; ++k) {
+            // Some corners lie on samples' centres.
+            const bool inner = i > 0 && k > 0 && i < cells && k < cells && (i + k) % 3 != 0;
+            const float away = inner ? 0.15F : 0.0F;
+            points[std::size_t(i)][std::size_t(k)] = {float(i) - 4.5F + random.number(-1, 1) * away,
+                                                      float(k) - 4.5F + random.number(-1, 1) * away, 0};
+        }
+    }
+    std::uint32_t id = 0;
+    for (std::size_t i = 0; i < cells; ++i) {
+        for (std::size_t k = 0; k < cells; ++k) {
+            const Vec3<float>&a = points[i][k], &b = points[i + 1][k], &c = points[i + 1][k + 1],
+                  &d = points[i][k + 1];
+            Triangle<float> triangle;
+            triangle.points = {a, b, c};
+            scene.add(Bare<Triangle<float>>{triangle, {id++, {0, 0}}});
+            triangle.points = {c, a, d}; // seen from behind
+            scene.add(Bare<Triangle<float>>{triangle, {id++, {0, 0}}});
+        }
+    }
+    const Image image = draw(scene, request(160, 160));
+    for (std::size_t i = 0; i < image.pixels.size(); i += 3) {
+        ASSERT_NEAR(image.pixels[i], 0.05F, 1e-6F) << i / 3 % 160 << ' ' << i / 3 / 160;
+    }
+}
+
+TEST(Raster, LeavesOutBacksIfTold) {
+    auto scene = varied_scene<float>();
+    RenderRequest wanted = request(60, 40);
+    const Image all = draw(scene, wanted);
+    wanted.settings.raster.cull = Cull::back;
+    EXPECT_EQ(draw(scene, wanted).pixels, all.pixels);      // all fronts are seen
+    scene.camera = camera_at<float>({1, -3, 6}, {0, 0, 0}); // below the plane
+    EXPECT_NE(draw(scene, wanted).pixels, draw(scene, request(60, 40)).pixels);
+}
+
+/// Of a mesh in its place, mirrored, against the same triangles in the world.
+TEST(Raster, DrawsMirroredMeshesFromTheirFront) {
+    const std::vector<float> positions{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0.5F};
+    const std::vector<std::uint32_t> indices{0, 1, 2, 2, 1, 3};
+    const MeshStorage mesh = build_mesh(positions, indices);
+    Affine<double> map;
+    map.m[0][0] = -2;
+    map.m[1][1] = 1.5;
+    map.m[0][3] = 1;
+    RasterScene<double> placed, in_world;
+    for (auto* scene : {&placed, &in_world}) {
+        scene->camera = camera_at<double>({0, 0.5, 5}, {0, 0.5, 0});
+        scene->materials = {phong<double>(0.8, 0.3, 0.2), phong<double>(0.1, 0.2, 0.9)};
+        scene->point_lights = {{.position = {3, 4, 5}}};
+    }
+    placed.meshes = {mesh.data()};
+    placed.add(Placed<Mesh<double>, double>{{0}, map, inverse(map), {0, {0, 1}}});
+    for (std::size_t t = 0; t < 2; ++t) {
+        Triangle<double> triangle;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const float* p = &positions[3 * indices[3 * t + k]];
+            triangle.points[k] = transform_point(map, Vec3<double>{p[0], p[1], p[2]});
+        }
+        std::swap(triangle.points[1], triangle.points[2]);
+        in_world.add(Bare<Triangle<double>>{triangle, {static_cast<std::uint32_t>(t), {0, 1}}});
+    }
+    for (const RasterShading shading : {RasterShading::phong, RasterShading::gouraud}) {
+        const RenderRequest wanted = request(60, 40, shading);
+        EXPECT_LT(root_mean_square(draw(placed, wanted), draw(in_world, wanted)), 1e-7);
+    }
+}
+
+TEST(Raster, TellsWhatPixelsShow) {
+    auto scene = varied_scene<double>();
+    const RenderRequest wanted = request(80, 60);
+    AovImage values(80, 60, ~AovSet{0});
+    ASSERT_TRUE(draw_raster_aovs(scene, raster_model(scene, wanted.settings), wanted, values));
+    const CameraRays<RasterScene<double>> rays(scene, wanted.settings);
+    for (const auto& [x, y] : {std::pair{20, 30}, {40, 25}, {40, 40}, {10, 55}}) {
+        const std::size_t i = static_cast<std::size_t>(y * 80 + x);
+        const Ray<double> ray =
+            rays.straight_ray(rays.window_x(double(x), 0.5), rays.window_y(double(y), 0.5));
+        const Hit<double> hit = closest_hit<RasterScene<double>, double>(scene, ray);
+        EXPECT_EQ(values.object[i], hit.id + 1);
+        EXPECT_NEAR(values.depth[i], hit.shape.t * length(ray.dir), 0.01);
+        EXPECT_NEAR(values.planar[i], hit.shape.t, 0.01);
+        EXPECT_EQ(values.material[i], hit.id + 1);
+        const Vec3<double> point = ray.org + ray.dir * hit.shape.t;
+        EXPECT_NEAR(values.position[1][i], point.y, 0.01);
+        const double size = std::pow(values.normal[0][i], 2) + std::pow(values.normal[1][i], 2) +
+                            std::pow(values.normal[2][i], 2);
+        EXPECT_NEAR(size, 1, 1e-5);
+    }
+}
+
+/// Corners of all kinds that have no place on a picture. What they do not touch stays as it is.
+TEST(Raster, SurvivesWildVertices) {
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN(),
+                    inf = std::numeric_limits<float>::infinity();
+    const std::array<float, 14> wild{nan, inf, -inf,    1e30F, -1e30F, 3e38F, 1e-40F,
+                                     0,   5,   4.9999F, 1e7F,  -1e15F, 1e10F, 0.5F};
+    std::mt19937 engine(3);
+    const auto number = [&] {
+        const auto choice = engine() % 20;
+        return choice < wild.size() ? wild[choice] : static_cast<float>(engine() % 2000) / 500 - 2;
+    };
+    for (const RasterShading shading : all_shadings) {
+        RasterScene<float> scene;
+        scene.camera = camera_at<float>({0, 0, 5}, {0, 0, 0});
+        scene.materials = {phong<float>(0.8, 0.3, 0.2), phong<float>(0.2, 0.5, 0.3)};
+        scene.materials[1].transmit.value = {0.5F, 0.5F, 0.5F};
+        scene.point_lights = {{.position = {3, 4, 5}}};
+        std::vector<float> positions;
+        std::vector<std::uint32_t> indices;
+        for (std::uint32_t i = 0; i < 600; ++i) {
+            Triangle<float> triangle;
+            for (Vec3<float>& p : triangle.points) {
+                p = {number(), number(), number()};
+            }
+            scene.add(Bare<Triangle<float>>{triangle, {i, {i % 2, 0}}});
+            for (std::size_t corner = 1; corner < 3; ++corner) {
+                scene.line_segments.push_back(
+                    {triangle.points[corner - 1], triangle.points[corner], {1, 1, 1}, float(i % 4)});
+            }
+        }
+        RenderRequest wanted = request(70, 50, shading);
+        wanted.settings.raster.clip = shading != RasterShading::flat;
+        draw(scene, wanted);
+        wanted.crop = {3, 5, 66, 44};
+        draw(scene, wanted);
+    }
+    // One good triangle among those that lie behind the eye or nowhere.
+    RasterScene<float> good, among;
+    for (auto* scene : {&good, &among}) {
+        scene->camera = camera_at<float>({0, 0, 5}, {0, 0, 0});
+        scene->materials = {phong<float>(0.8, 0.3, 0.2)};
+        scene->point_lights = {{.position = {3, 4, 5}}};
+    }
+    Triangle<float> triangle;
+    triangle.points = {Vec3<float>{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+    good.add(Bare<Triangle<float>>{triangle, {0, {0, 0}}});
+    among.add(Bare<Triangle<float>>{triangle, {0, {0, 0}}});
+    std::uint32_t id = 1;
+    for (const float x : {nan, inf, -inf, 3e38F}) {
+        triangle.points = {Vec3<float>{x, 0, 0}, {1, x, 0}, {0, 1, x}};
+        among.add(Bare<Triangle<float>>{triangle, {id++, {0, 0}}});
+        triangle.points = {Vec3<float>{x, 0, 5}, {x, 0, 5}, {x, 0, 5}};
+        among.add(Bare<Triangle<float>>{triangle, {id++, {0, 0}}});
+    }
+    const RenderRequest wanted = request(70, 50, RasterShading::gouraud);
+    EXPECT_EQ(draw(among, wanted).pixels, draw(good, wanted).pixels);
+}
+
+} // namespace
+
+} // namespace scc::runtime::test
