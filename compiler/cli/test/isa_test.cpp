@@ -21,7 +21,7 @@ protected:
 };
 
 TEST_F(InstructionSets, DrawTheSameBits) {
-    for (const char* name : {"lecture.scn", "mesh.scn"}) {
+    for (const char* name : {"lecture.scn", "mesh.scn", "shading.scn"}) {
         for (const char* precision : {"float", "double"}) {
             std::string fastest;
             ASSERT_TRUE(draw(example(name), "baseline", precision).ok());
