@@ -6,6 +6,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 
 namespace scc::validation {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 constexpr double version_timeout_seconds = 20;
 
 /// The first line of `NAME --version`.
-std::optional<std::string> first_line(const char* program) {
+std::optional<std::string> first_line(const std::string& program) {
     Command command;
     command.program = program;
     command.arguments = {"--version"};
@@ -41,6 +42,12 @@ constexpr std::array rows{
     Row{"povray", "draws exported scenes (scc validate --against pov)", "apt install povray", povray_version},
     Row{"blender", "draws exported scenes (scc validate --against blender)", "apt install blender",
         blender_version},
+    Row{"scc-opengl", "draws raster pictures by OpenGL (scc validate --against opengl)",
+        "apt install libosmesa6-dev, then build scc again",
+        [] {
+            const std::optional<std::string> program = find_opengl_program();
+            return program ? first_line(*program) : std::nullopt;
+        }},
 };
 
 } // namespace

@@ -175,6 +175,12 @@ std::string version_line(const std::string& text, const std::string& name) {
 
 } // namespace
 
+std::optional<std::string> find_opengl_program() {
+    std::error_code error;
+    const fs::path beside = fs::read_symlink("/proc/self/exe", error).parent_path() / "scc-opengl";
+    return !error && fs::exists(beside, error) ? beside.string() : find_program("scc-opengl");
+}
+
 double exposure_for(double brightest) {
     return brightest > 1 && std::isfinite(brightest) ? std::exp2(-std::ceil(std::log2(brightest))) : 1;
 }

@@ -61,6 +61,9 @@ std::optional<std::string> povray_version();
 /// "Blender 3.4.1"
 std::optional<std::string> blender_version();
 
+/// scc-opengl, which draws raster pictures: beside this program or on the path.
+std::optional<std::string> find_opengl_program();
+
 /// The largest power of two, at most 1, that brings `brightest` to 1 or below.
 double exposure_for(double brightest);
 

@@ -219,15 +219,6 @@ RendererReport run_exported(const Subject& subject, const std::string& name, dou
     return result;
 }
 
-/// What draws by OpenGL, beside this program or on the path; nothing if it is not installed.
-std::optional<std::string> opengl_program() {
-    std::error_code error;
-    const std::filesystem::path beside =
-        std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / "scc-opengl";
-    return !error && std::filesystem::exists(beside, error) ? beside.string()
-                                                            : validation::find_program("scc-opengl");
-}
-
 RendererReport run_opengl(const Subject& subject, const Options& options, const std::string& file) {
     RendererReport result;
     result.renderer = "opengl";
@@ -236,7 +227,7 @@ RendererReport run_opengl(const Subject& subject, const Options& options, const 
                             "OpenGL casts no rays; `--mode raster` compares raster pictures"};
         return result;
     }
-    const std::optional<std::string> program = opengl_program();
+    const std::optional<std::string> program = validation::find_opengl_program();
     if (!program) {
         result.judgement = {Verdict::skipped,
                             "scc-opengl is not installed; on Debian, before building scc: apt "

@@ -80,6 +80,7 @@ int main(int argc, char** argv) {
                 ->type_name(row.value);
         }
     }
+    app.set_version_flag("--version", "scc-opengl " SCC_VERSION);
     CLI11_PARSE(app, argc, argv);
     try {
         return validation::run(options);
