@@ -395,7 +395,7 @@ TEST_F(CommandLine, RefusesToImportWhatIsWrong) {
     write("a.nff", small_nff + "s 0 0 0 -1\n");
     const auto wrong = scc({"import", "nff", "a.nff", "-o", "a.scn"});
     EXPECT_EQ(wrong.code, 1);
-    EXPECT_EQ(wrong.err.find("a.nff:12:9: error: the radius is -1; "), 0U) << wrong.err;
+    EXPECT_EQ(wrong.err.find("a.nff:13:9: error: the radius is -1; "), 0U) << wrong.err;
     EXPECT_EQ(scc({"import", "nff", "none.nff", "-o", "a.scn"}).code, 3);
     EXPECT_EQ(files(), (Lines{"a.nff"}));
     write("a.nff", small_nff);
