@@ -186,6 +186,8 @@ private:
         glLightModelfv(GL_LIGHT_MODEL_AMBIENT, four(scene.ambient).data());
         glLightModeli(GL_LIGHT_MODEL_LOCAL_VIEWER, 1);
         glLightModeli(GL_LIGHT_MODEL_TWO_SIDE, 1);
+        // Else it cuts vertices' colours at 1 before they are interpolated.
+        glClampColor(GL_CLAMP_VERTEX_COLOR, GL_FALSE);
         const auto& material = scene.materials[0];
         glMaterialfv(GL_FRONT_AND_BACK, GL_AMBIENT, four(material.ambient.value).data());
         glMaterialfv(GL_FRONT_AND_BACK, GL_DIFFUSE, four(material.diffuse.value).data());
@@ -198,19 +200,27 @@ private:
     GLsizei count_ = 0;
 };
 
-/// Pixels that one of them has drawn on and the other has not, or whose red differs by more than a rounding.
-std::size_t differing(const runtime::Image& ours, const Peer& theirs) {
-    std::size_t count = 0;
+/// Pixels that one of them has drawn on and the other has not, and those whose red differs by more than a
+/// rounding.
+json difference(const runtime::Image& ours, const Peer& theirs) {
+    std::size_t covered = 0, colored = 0;
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             const float red = std::min(1.0F, ours.at(x, y)[0]) * 255;
-            count += std::abs(red - static_cast<float>(theirs.red(x, y))) > 2 ? 1U : 0U;
+            covered += (red != 0) != (theirs.red(x, y) != 0) ? 1U : 0U;
+            colored += std::abs(red - static_cast<float>(theirs.red(x, y))) > 2 ? 1U : 0U;
         }
     }
-    return count;
+    return {{"covered", covered}, {"colored", colored}};
 }
 
-json compare(const std::string& name, const SmoothMesh& source, int threads, int repeat) {
+struct Measurement {
+    int threads = 1, repeat = 5;
+    int frames = 0; ///< if not 0: so many are drawn and nothing is measured
+};
+
+json compare(const std::string& name, const SmoothMesh& source, const Measurement& measurement) {
+    const auto [threads, repeat, frames] = measurement;
     const runtime::MeshStorage mesh =
         runtime::build_mesh(source.mesh.positions, source.mesh.indices, source.normals, source.mesh.indices);
     const Scene scene = scene_for(mesh);
@@ -226,6 +236,12 @@ json compare(const std::string& name, const SmoothMesh& source, int threads, int
     model_seconds = time_of(Clock::wall, [&] { model = raster_model(scene, request.settings); });
     runtime::raster::RasterPainter<Scene, Lane> painter(scene, model);
     runtime::Image image(width, height);
+    for (int i = 0; i < frames; ++i) {
+        draw_raster(painter, request, image);
+    }
+    if (frames != 0) {
+        return {{"mesh", name}, {"frames", frames}};
+    }
     Peer peer(scene, source);
     // Alone, by the time of the processor: other processes on the machine matter less.
     const Clock clock = threads == 1 ? Clock::processor : Clock::wall;
@@ -245,7 +261,7 @@ json compare(const std::string& name, const SmoothMesh& source, int threads, int
             {"ours", ours.json()},
             {"llvmpipe", theirs.json()},
             {"model_seconds", model_seconds},
-            {"differing", differing(image, peer)},
+            {"differing", difference(image, peer)},
             {"version", Peer::version()}};
 }
 
@@ -264,13 +280,15 @@ void limit_to(int threads) {
 
 int main(int argc, char** argv) {
     CLI::App app{"The raster pipeline against llvmpipe"};
-    int threads = 1, repeat = 5;
-    std::string meshes = SCC_MESH_DIR;
-    app.add_option("--threads", threads, "Of both, on as many processors")->check(CLI::Range(1, 256));
-    app.add_option("--repeat", repeat, "Measured rounds")->check(CLI::Range(1, 1000));
+    Measurement measurement;
+    std::string meshes = SCC_MESH_DIR, only;
+    app.add_option("--threads", measurement.threads, "Of both, on as many processors")->check(CLI::Range(1, 256));
+    app.add_option("--repeat", measurement.repeat, "Measured rounds")->check(CLI::Range(1, 1000));
     app.add_option("--meshes", meshes, "Folder of the meshes");
+    app.add_option("--only", only, "One of the cases, by its name");
+    app.add_option("--profile", measurement.frames, "Draw so many frames alone and measure nothing, for a profiler");
     CLI11_PARSE(app, argc, argv);
-    limit_to(threads);
+    limit_to(measurement.threads);
     struct Case {
         const char *name, *file;
         int subdivisions;
@@ -283,14 +301,19 @@ int main(int argc, char** argv) {
     json rows = json::array();
     try {
         for (const Case& one : cases) {
+            if (!only.empty() && only != one.name) {
+                continue;
+            }
             TriangleMesh mesh = load_mesh(std::filesystem::path(meshes) / one.file);
             if (one.subdivisions > 0) {
                 mesh = subdivide(std::move(mesh), one.subdivisions);
             }
             mesh.positions.resize(3 * (*std::max_element(mesh.indices.begin(), mesh.indices.end()) + 1));
-            rows.push_back(compare(one.name, smoothed(std::move(mesh)), threads, repeat));
+            rows.push_back(compare(one.name, smoothed(std::move(mesh)), measurement));
         }
-        rows.push_back(compare("10 layers", layers(10), threads, repeat));
+        if (only.empty() || only == "10 layers") {
+            rows.push_back(compare("10 layers", layers(10), measurement));
+        }
     } catch (const std::exception& error) {
         std::cerr << error.what() << '\n';
         return 1;
