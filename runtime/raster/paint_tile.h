@@ -193,20 +193,27 @@ private:
         }
     }
 
+    /// f(lanes, entry) for each entry that active lanes of a block show.
+    template <class F>
+    void for_each_entry(std::size_t block, const MaskOf<L>& active, F&& f) const {
+        for (unsigned left = bits(active); left != 0;) {
+            const std::uint32_t entry = buffer_.entries(block)[__builtin_ctz(left)];
+            const MaskOf<L> lanes = buffer_.shows(block, entry);
+            f(lanes, entry);
+            left &= ~bits(lanes);
+        }
+    }
+
     void number_samples(const Crop& pixels) {
         std::uint32_t last = no_entry;
         for_each_block(pixels, [&](std::size_t block, int, int) {
-            if (all(buffer_.shows(block, last))) {
-                return;
-            }
-            const auto& entries = buffer_.entries(block);
-            for (int k = 0; k < N; ++k) {
-                if (entries[k] != last) {
-                    last = entries[k];
-                    if (last != no_entry) {
-                        number_of(last);
-                    }
-                }
+            const MaskOf<L> others = !buffer_.shows(block, last);
+            if (any(others)) {
+                for_each_entry(block, others & buffer_.shown(block),
+                               [&](const MaskOf<L>&, std::uint32_t entry) {
+                                   number_of(entry);
+                                   last = entry;
+                               });
             }
         });
     }
@@ -219,20 +226,13 @@ private:
                 light_[block] = background;
                 return;
             }
-            typename Shader::Numbers numbers;
-            const auto& entries = buffer_.entries(block);
-            const std::uint32_t some = entries[first_lane(active)];
-            if (all(buffer_.shows(block, some))) {
-                numbers.fill(entries_[some].number);
-            } else {
-                for (int k = 0; k < N; ++k) {
-                    const std::uint32_t entry = entries[k] == no_entry ? some : entries[k];
-                    numbers[static_cast<std::size_t>(k)] = entries_[entry].number;
-                }
-            }
+            LaneGroups<L> groups;
+            for_each_entry(block, active, [&](const MaskOf<L>& lanes, std::uint32_t entry) {
+                groups.add(lanes, entries_[entry].number);
+            });
             const L column = buffer_.columns() + L(static_cast<R>(x)),
                     row = buffer_.rows() + L(static_cast<R>(y));
-            const Rgb<L> light = shader_.shade(numbers, column, row, active).light;
+            const Rgb<L> light = shader_.shade(groups, column, row, active).light;
             light_[block] = all(active) ? light : choose(active, light, background);
         });
     }
@@ -249,17 +249,19 @@ private:
     void blend() {
         for (std::size_t i = 0; i < fragments_.size(); i += N) {
             const int count = static_cast<int>(std::min<std::size_t>(N, fragments_.size() - i));
-            typename Shader::Numbers numbers;
+            LaneGroups<L> groups;
             L column, row;
             MaskOf<L> active(false);
             for (int k = 0; k < N; ++k) {
                 const Fragment& fragment = fragments_[i + static_cast<std::size_t>(std::min(k, count - 1))];
-                numbers[static_cast<std::size_t>(k)] = entries_[fragment.entry].number;
+                MaskOf<L> lane(false);
+                set_lane(lane, k, true);
+                groups.add(lane, entries_[fragment.entry].number);
                 set_lane(column, k, static_cast<R>(column_of(fragment.sample)));
                 set_lane(row, k, static_cast<R>(row_of(fragment.sample)));
                 set_lane(active, k, k < count);
             }
-            const Seen<L> seen = shader_.shade(numbers, column, row, active);
+            const Seen<L> seen = shader_.shade(groups, column, row, active);
             for (int k = 0; k < count; ++k) {
                 const std::uint32_t sample = fragments_[i + static_cast<std::size_t>(k)].sample;
                 Rgb<L>& to = light_[sample / N];
@@ -380,12 +382,12 @@ private:
             put(to.material, 0U);
             return;
         }
-        typename Shader::Numbers numbers;
-        numbers.fill(entries_[entry].number);
         MaskOf<L> one(false);
         set_lane(one, 0, true);
+        LaneGroups<L> groups;
+        groups.add(one, entries_[entry].number);
         const auto at =
-            shader_.template place<true>(numbers, L(static_cast<R>(column)), L(static_cast<R>(row)), one);
+            shader_.template place<true>(groups, L(static_cast<R>(column)), L(static_cast<R>(row)), one);
         put(to.depth, lane(at.ahead * length(at.dir), 0));
         put(to.planar, lane(at.ahead, 0));
         put_vector(to.position, at.point.world);

@@ -2,6 +2,7 @@
 
 #include "runtime/raster/corner_weights.h"
 #include "runtime/raster/corners.h"
+#include "runtime/raster/lane_groups.h"
 #include "runtime/raster/light_points.h"
 
 #include <algorithm>
@@ -23,8 +24,8 @@ public:
     using R = typename S::Real;
     using Mask = MaskOf<L>;
     static constexpr int N = lane_count<L>;
-    /// One for each lane, as add() gives them.
-    using Numbers = std::array<std::uint32_t, static_cast<std::size_t>(N)>;
+    /// Of numbers as add() gives them.
+    using Groups = LaneGroups<L>;
 
     TriangleShader(const S& scene, const RasterModel<R>& model, const RasterView<R>& view,
                    RasterShading shading)
@@ -61,41 +62,34 @@ public:
     /// To be called when all are known.
     void prepare() {
         for (std::size_t i = 0; i < to_prepare_.size(); i += N) {
-            Numbers numbers;
+            PackOfShown pack;
             const std::size_t count = std::min<std::size_t>(N, to_prepare_.size() - i);
-            for (std::size_t k = 0; k < numbers.size(); ++k) {
-                numbers[k] = to_prepare_[i + std::min(k, count - 1)];
+            for (std::size_t k = 0; k < pack.size(); ++k) {
+                pack[k] = &shown_[to_prepare_[i + std::min(k, count - 1)]];
             }
-            prepare(numbers, count);
+            prepare(pack, count);
         }
     }
 
-    /// At samples (column, row) of the tile. Inactive lanes have the number of some other.
-    Seen<L> shade(const Numbers& numbers, const L& column, const L& row, const Mask& active) const {
-        const bool alike = all_alike(numbers);
+    /// At samples (column, row) of the tile.
+    Seen<L> shade(const Groups& groups, const L& column, const L& row, const Mask& active) const {
         if (!has_samples_) {
-            return interpolate(numbers, alike, column, row);
+            return interpolate(groups, column, row);
         }
         if (!has_vertices_) {
-            return shade_samples(numbers, alike, column, row, active);
+            return shade_samples(groups, column, row, active);
         }
+        Groups lit;
         Mask by_sample(false);
-        for (int k = 0; k < N; ++k) {
-            set_lane(by_sample, k, shown(numbers, k).by_sample);
-        }
-        by_sample = by_sample & active;
-        const Seen<L> seen = interpolate(numbers, alike, column, row);
-        if (none(by_sample)) {
-            return seen;
-        }
-        Numbers lit = numbers;
-        const std::uint32_t some = numbers[static_cast<std::size_t>(first_lane(by_sample))];
-        for (int k = 0; k < N; ++k) {
-            if (!shown(numbers, k).by_sample) {
-                lit[static_cast<std::size_t>(k)] = some;
+        for (const auto& group : groups) {
+            if (shown_[group.number].by_sample) {
+                by_sample = by_sample | group.lanes;
+                lit.add(group.lanes, group.number);
             }
         }
-        return choose(by_sample, shade_samples(lit, all_alike(lit), column, row, by_sample), seen);
+        by_sample = by_sample & active;
+        const Seen<L> seen = interpolate(groups, column, row);
+        return none(by_sample) ? seen : choose(by_sample, shade_samples(lit, column, row, by_sample), seen);
     }
 
     /// A sample's place on its triangle.
@@ -108,8 +102,33 @@ public:
     };
     /// Of samples that show triangles, where all are lit at each sample.
     template <bool wants_uv>
-    Place place(const Numbers& numbers, const L& column, const L& row, const Mask& active) const {
-        return place<wants_uv>(numbers, all_alike(numbers), column, row, active);
+    Place place(const Groups& groups, const L& column, const L& row, const Mask& active) const {
+        const auto linear = [&](std::size_t at) { return value(groups, at, column, row); };
+        Place result;
+        const Ray<L> ray = view_.ray_through(column + L(static_cast<R>(left_) + R(0.5)),
+                                             row + L(static_cast<R>(top_) + R(0.5)));
+        result.dir = ray.dir;
+        result.ahead = linear(depth) / linear(finite_sum);
+        result.point.world = ray.org + ray.dir * result.ahead;
+        const auto geometric = [&](auto component) {
+            return gather(groups, [=](const Shown& s) { return s.geometric.*component; });
+        };
+        result.point.n = {geometric(&Vec3<R>::x), geometric(&Vec3<R>::y), geometric(&Vec3<R>::z)};
+        // Seen from behind, all weights are negative.
+        const L side = choose(linear(weight_sum) < 0, L(-1), L(1));
+        const Vec3<L> sum =
+            Vec3<L>{linear(first_normal), linear(first_normal + 3), linear(first_normal + 6)} * side;
+        const L squared = dot(sum, sum);
+        const Vec3<L> normal = choose(squared > 0, sum * (L(1) / square_root(squared)), result.point.n);
+        result.normal = choose(dot(normal, ray.dir) > 0, -normal, normal);
+        result.material = gather_index(groups, [](const Shown& s) { return s.material; });
+        if constexpr (S::traits.functions || wants_uv) {
+            const IndexOf<L> faceted =
+                gather_index(groups, [](const Shown& s) { return s.surface->is_faceted ? 1U : 0U; });
+            result.point.n = choose(faceted == IndexOf<L>(1U), result.point.n, normal);
+            lighting_.template finish<wants_uv>(hit_of(groups, result.ahead), ray, active, result.point);
+        }
+        return result;
     }
     std::uint32_t object_of(std::uint32_t number) const { return shown_[number].surface->id; }
 
@@ -127,113 +146,78 @@ private:
         Vec3<R> geometric{};
     };
 
-    const Shown& shown(const Numbers& numbers, int k) const {
-        return shown_[numbers[static_cast<std::size_t>(k)]];
-    }
-    static bool all_alike(const Numbers& numbers) {
-        return std::all_of(numbers.begin(), numbers.end(), [&](std::uint32_t n) { return n == numbers[0]; });
-    }
     void set_color(std::size_t number, const Rgb<R>& color, std::size_t at) {
-        auto& numbers = shown_[number].numbers;
+        set_color(shown_[number], color, at);
+    }
+    static void set_color(Shown& shown, const Rgb<R>& color, std::size_t at) {
+        auto& numbers = shown.numbers;
         numbers[at] = color.r;
         numbers[at + 3] = color.g;
         numbers[at + 6] = color.b;
     }
 
     template <class Get>
-    L gather(const Numbers& numbers, bool alike, Get&& get) const {
-        if (alike) {
-            return L(get(shown_[numbers[0]]));
-        }
-        R values[N];
-        for (int k = 0; k < N; ++k) {
-            values[k] = get(shown(numbers, k));
-        }
-        return from_lanes(values);
-    }
-    static L from_lanes(const R* values) {
-        L result;
-        std::memcpy(&result.v, values, sizeof result.v);
-        return result;
+    L gather(const Groups& groups, Get&& get) const {
+        return groups.template gather<L>([&](std::uint32_t number) { return get(shown_[number]); });
     }
     template <class Get>
-    IndexOf<L> gather_index(const Numbers& numbers, Get&& get) const {
-        typename IndexOf<L>::Number values[N];
-        for (int k = 0; k < N; ++k) {
-            values[k] = get(shown(numbers, k));
-        }
-        IndexOf<L> result;
-        std::memcpy(&result.v, values, sizeof result.v);
-        return result;
+    IndexOf<L> gather_index(const Groups& groups, Get&& get) const {
+        return groups.template gather<IndexOf<L>>(
+            [&](std::uint32_t number) { return get(shown_[number]); });
     }
     /// The value of the Linear at `at`.
-    L value(const Numbers& numbers, bool alike, std::size_t at, const L& column, const L& row) const {
-        const auto number = [&](std::size_t i) {
-            return gather(numbers, alike, [=](const Shown& s) { return s.numbers[i]; });
+    L value(const Groups& groups, std::size_t at, const L& column, const L& row) const {
+        const auto of = [&](std::uint32_t number) {
+            const auto& numbers = shown_[number].numbers;
+            return L(numbers[at]) + L(numbers[at + 1]) * column + L(numbers[at + 2]) * row;
         };
-        return number(at) + number(at + 1) * column + number(at + 2) * row;
+        return groups.template gather<L>(of);
     }
 
     /// Colours at vertices, or of faces.
-    Seen<L> interpolate(const Numbers& numbers, bool alike, const L& column, const L& row) const {
-        const L scale = L(1) / value(numbers, alike, weight_sum, column, row);
-        const auto color = [&](std::size_t at) {
-            return Rgb<L>{value(numbers, alike, at, column, row), value(numbers, alike, at + 3, column, row),
-                          value(numbers, alike, at + 6, column, row)} *
-                   scale;
-        };
-        Seen<L> seen{color(first_color), {L(0), L(0), L(0)}};
-        if constexpr (S::traits.transmission) {
-            seen.transmit = color(first_transmit);
+    Seen<L> interpolate(const Groups& groups, const L& column, const L& row) const {
+        Seen<L> seen{};
+        L sum(1);
+        bool first = true;
+        for (const auto& group : groups) {
+            const auto& numbers = shown_[group.number].numbers;
+            const auto put = [&](std::size_t at, L& to) {
+                const L value = L(numbers[at]) + L(numbers[at + 1]) * column + L(numbers[at + 2]) * row;
+                to = first ? value : choose(group.lanes, value, to);
+            };
+            const auto put_color = [&](std::size_t at, Rgb<L>& to) {
+                put(at, to.r);
+                put(at + 3, to.g);
+                put(at + 6, to.b);
+            };
+            put(weight_sum, sum);
+            put_color(first_color, seen.light);
+            if constexpr (S::traits.transmission) {
+                put_color(first_transmit, seen.transmit);
+            }
+            first = false;
         }
-        return seen;
+        const L scale = L(1) / sum;
+        return {seen.light * scale, seen.transmit * scale};
     }
 
-    Seen<L> shade_samples(const Numbers& numbers, bool alike, const L& column, const L& row,
-                          const Mask& active) const {
-        const Place at = place<false>(numbers, alike, column, row, active);
+    Seen<L> shade_samples(const Groups& groups, const L& column, const L& row, const Mask& active) const {
+        const Place at = place<false>(groups, column, row, active);
         return lighting_.light(at.point, at.normal, at.dir, at.material, active);
     }
 
-    template <bool wants_uv>
-    Place place(const Numbers& numbers, bool alike, const L& column, const L& row, const Mask& active) const {
-        const auto linear = [&](std::size_t at) { return value(numbers, alike, at, column, row); };
-        Place result;
-        const Ray<L> ray = view_.ray_through(column + L(static_cast<R>(left_) + R(0.5)),
-                                             row + L(static_cast<R>(top_) + R(0.5)));
-        result.dir = ray.dir;
-        result.ahead = linear(depth) / linear(finite_sum);
-        result.point.world = ray.org + ray.dir * result.ahead;
-        const auto geometric = [&](auto component) {
-            return gather(numbers, alike, [=](const Shown& s) { return s.geometric.*component; });
-        };
-        result.point.n = {geometric(&Vec3<R>::x), geometric(&Vec3<R>::y), geometric(&Vec3<R>::z)};
-        // Seen from behind, all weights are negative.
-        const L side = choose(linear(weight_sum) < 0, L(-1), L(1));
-        const Vec3<L> sum =
-            Vec3<L>{linear(first_normal), linear(first_normal + 3), linear(first_normal + 6)} * side;
-        const L squared = dot(sum, sum);
-        const Vec3<L> normal = choose(squared > 0, sum * (L(1) / square_root(squared)), result.point.n);
-        result.normal = choose(dot(normal, ray.dir) > 0, -normal, normal);
-        result.material = gather_index(numbers, [](const Shown& s) { return s.material; });
-        if constexpr (S::traits.functions || wants_uv) {
-            const IndexOf<L> faceted =
-                gather_index(numbers, [](const Shown& s) { return s.surface->is_faceted ? 1U : 0U; });
-            result.point.n = choose(faceted == IndexOf<L>(1U), result.point.n, normal);
-            lighting_.template finish<wants_uv>(hit_of(numbers, result.ahead), ray, active, result.point);
-        }
-        return result;
-    }
-    Hit<L> hit_of(const Numbers& numbers, const L& t) const {
+    Hit<L> hit_of(const Groups& groups, const L& t) const {
         Hit<L> hit;
         hit.shape.t = t;
-        hit.shape.part = gather_index(numbers, [&](const Shown& s) {
+        hit.shape.part = gather_index(groups, [&](const Shown& s) {
             return part_of_triangle(model_, *s.surface, (s.id & triangle_number) - s.surface->first);
         });
-        hit.kind = gather_index(numbers, [](const Shown& s) { return s.surface->kind; });
-        hit.index = gather_index(numbers, [](const Shown& s) { return s.surface->index; });
+        hit.kind = gather_index(groups, [](const Shown& s) { return s.surface->kind; });
+        hit.index = gather_index(groups, [](const Shown& s) { return s.surface->index; });
         return hit;
     }
+
+    using PackOfShown = std::array<Shown*, static_cast<std::size_t>(N)>;
 
     /// Several triangles' corners in the world.
     struct Corners3 {
@@ -241,11 +225,13 @@ private:
         std::array<L, 3> weights;
         std::array<Vec3<L>, 3> normals;
         Vec3<L> geometric; ///< on the front side
+        L side;            ///< -1: seen from behind
+        IndexOf<L> material;
     };
 
     /// The first `count` of these triangles.
-    void prepare(const Numbers& numbers, std::size_t count) {
-        const Corners3 corners = corners_of(numbers);
+    void prepare(const PackOfShown& pack, std::size_t count) {
+        const Corners3 corners = corners_of(pack);
         std::array<EyePoint<L>, 3> eye;
         std::array<ClipPoint<L>, 3> clip;
         for (std::size_t c = 0; c < 3; ++c) {
@@ -254,26 +240,21 @@ private:
                 view_.to_clip(eye[c], L(static_cast<R>(left_) + R(0.5)), L(static_cast<R>(top_) + R(0.5)));
         }
         const std::array<Linear<L>, 3> weights = corner_weights(clip);
-        for (std::size_t k = 0; k < count; ++k) {
-            Shown& s = shown_[numbers[k]];
-            const bool back = S::traits.two_sided && (s.id & seen_from_back) != 0;
-            s.material = back ? s.surface->sides.back : s.surface->sides.front;
-        }
         const auto sum_of = [&](auto&& of_corner) {
             return weights[0] * of_corner(0) + weights[1] * of_corner(1) + weights[2] * of_corner(2);
         };
         if (has_samples_) {
-            prepare_samples(numbers, count, corners, eye, sum_of);
+            prepare_samples(pack, count, corners, eye, sum_of);
         }
         if (has_vertices_) {
-            prepare_vertices(numbers, count, corners, sum_of);
+            prepare_vertices(pack, count, corners, sum_of);
         }
     }
     template <class SumOf>
-    void prepare_samples(const Numbers& numbers, std::size_t count, const Corners3& corners,
+    void prepare_samples(const PackOfShown& pack, std::size_t count, const Corners3& corners,
                          const std::array<EyePoint<L>, 3>& eye, SumOf&& sum_of) {
         const auto keep = [&](std::size_t at, const Linear<L>& linear) {
-            store(numbers, count, true, at, linear);
+            store(pack, count, true, at, linear);
         };
         keep(weight_sum, sum_of([](std::size_t) { return L(1); }));
         keep(first_normal, sum_of([&](std::size_t c) { return corners.normals[c].x; }));
@@ -283,36 +264,36 @@ private:
         keep(depth, sum_of([&](std::size_t c) { return eye[c].ahead; }));
         for (std::size_t k = 0; k < count; ++k) {
             const int i = static_cast<int>(k);
-            shown_[numbers[k]].geometric = {lane(corners.geometric.x, i), lane(corners.geometric.y, i),
+            pack[k]->geometric = {lane(corners.geometric.x, i), lane(corners.geometric.y, i),
                                             lane(corners.geometric.z, i)};
         }
     }
     template <class SumOf>
-    void prepare_vertices(const Numbers& numbers, std::size_t count, const Corners3& corners,
+    void prepare_vertices(const PackOfShown& pack, std::size_t count, const Corners3& corners,
                           SumOf&& sum_of) {
         Mask active(false);
         for (std::size_t k = 0; k < count; ++k) {
-            set_lane(active, static_cast<int>(k), !shown_[numbers[k]].by_sample);
+            set_lane(active, static_cast<int>(k), !pack[k]->by_sample);
         }
         if (none(active)) {
             return;
         }
         if (shading_ == RasterShading::flat) {
-            const Seen<L> seen = light_vertex(numbers, corners, 2, active);
+            const Seen<L> seen = light_vertex(pack, corners, 2, active);
             for (std::size_t k = 0; k < count; ++k) {
-                if (!shown_[numbers[k]].by_sample) {
-                    set_color(numbers[k], lane_of(seen.light, k), first_color);
-                    set_color(numbers[k], lane_of(seen.transmit, k), first_transmit);
+                if (!pack[k]->by_sample) {
+                    set_color(*pack[k], lane_of(seen.light, k), first_color);
+                    set_color(*pack[k], lane_of(seen.transmit, k), first_transmit);
                 }
             }
             return;
         }
         std::array<Seen<L>, 3> seen;
         for (std::size_t c = 0; c < 3; ++c) {
-            seen[c] = light_vertex(numbers, corners, c, active);
+            seen[c] = light_vertex(pack, corners, c, active);
         }
         const auto keep = [&](std::size_t at, auto&& of_corner) {
-            store(numbers, count, false, at, sum_of(of_corner));
+            store(pack, count, false, at, sum_of(of_corner));
         };
         keep(weight_sum, [](std::size_t) { return L(1); });
         keep(first_color, [&](std::size_t c) { return seen[c].light.r; });
@@ -329,10 +310,10 @@ private:
         return {lane(color.r, i), lane(color.g, i), lane(color.b, i)};
     }
     /// Of those that are, or are not, lit by samples.
-    void store(const Numbers& numbers, std::size_t count, bool by_sample, std::size_t at,
+    void store(const PackOfShown& pack, std::size_t count, bool by_sample, std::size_t at,
                const Linear<L>& linear) {
         for (std::size_t k = 0; k < count; ++k) {
-            Shown& s = shown_[numbers[k]];
+            Shown& s = *pack[k];
             if (s.by_sample == by_sample) {
                 const int i = static_cast<int>(k);
                 s.numbers[at] = lane(linear.at, i);
@@ -342,10 +323,16 @@ private:
         }
     }
 
-    Corners3 corners_of(const Numbers& numbers) const {
-        R values[22][N];
+    static L from_lanes(const R* values) {
+        L result;
+        std::memcpy(&result.v, values, sizeof result.v);
+        return result;
+    }
+    Corners3 corners_of(const PackOfShown& pack) const {
+        R values[23][N];
+        typename IndexOf<L>::Number materials[N];
         for (int k = 0; k < N; ++k) {
-            const Shown& s = shown(numbers, k);
+            Shown& s = *pack[static_cast<std::size_t>(k)];
             const std::uint32_t i = (s.id & triangle_number) - s.surface->first;
             const WorldTriangle<R> t = world_triangle(model_, scene_.meshes, *s.surface, i);
             for (std::size_t c = 0; c < 3; ++c) {
@@ -360,7 +347,11 @@ private:
                 values[13 + 3 * c][k] = normals[c].y;
                 values[14 + 3 * c][k] = normals[c].z;
             }
+            const bool back = (s.id & seen_from_back) != 0;
             values[21][k] = s.surface->is_mirrored ? R(-1) : R(1);
+            values[22][k] = back ? R(-1) : R(1);
+            s.material = S::traits.two_sided && back ? s.surface->sides.back : s.surface->sides.front;
+            materials[k] = s.material;
         }
         Corners3 result;
         const auto vector = [&](std::size_t n) {
@@ -375,6 +366,8 @@ private:
             return result.points[c] - result.points[0] * result.weights[c];
         };
         result.geometric = normalize(cross(edge(1), edge(2))) * from_lanes(values[21]);
+        result.side = from_lanes(values[22]);
+        std::memcpy(&result.material.v, materials, sizeof materials);
         for (Vec3<L>& normal : result.normals) { // those that a mesh lacks
             const Mask missing = (normal.x == 0) & (normal.y == 0) & (normal.z == 0);
             normal = choose(missing, result.geometric, normal);
@@ -382,23 +375,30 @@ private:
         return result;
     }
 
-    Seen<L> light_vertex(const Numbers& numbers, const Corners3& corners, std::size_t c,
+    Seen<L> light_vertex(const PackOfShown& pack, const Corners3& corners, std::size_t c,
                          const Mask& active) const {
-        const L side = gather(numbers, false,
-                              [](const Shown& s) { return (s.id & seen_from_back) != 0 ? R(-1) : R(1); });
         const Vec3<L> normal = normalize(corners.normals[c]);
         SurfacePoint<L> point{};
         point.world = corners.points[c];
         const Vec3<L> dir = view_.direction_to(point.world);
         if constexpr (S::traits.functions) {
+            const Groups groups = one_by_one(pack);
             const IndexOf<L> faceted =
-                gather_index(numbers, [](const Shown& s) { return s.surface->is_faceted ? 1U : 0U; });
+                gather_index(groups, [](const Shown& s) { return s.surface->is_faceted ? 1U : 0U; });
             point.n = choose(faceted == IndexOf<L>(1U), corners.geometric, normal);
             const Ray<L> ray{point.world - dir, dir};
-            lighting_.template finish<false>(hit_of(numbers, L(1)), ray, active, point);
+            lighting_.template finish<false>(hit_of(groups, L(1)), ray, active, point);
         }
-        const IndexOf<L> material = gather_index(numbers, [](const Shown& s) { return s.material; });
-        return lighting_.light(point, normal * side, dir, material, active);
+        return lighting_.light(point, normal * corners.side, dir, corners.material, active);
+    }
+    Groups one_by_one(const PackOfShown& pack) const {
+        Groups groups;
+        for (int k = 0; k < N; ++k) {
+            Mask lanes(false);
+            set_lane(lanes, k, true);
+            groups.add(lanes, static_cast<std::uint32_t>(pack[static_cast<std::size_t>(k)] - shown_.data()));
+        }
+        return groups;
     }
 
     const S& scene_;
