@@ -3,6 +3,7 @@
 #include "runtime/aov.h"
 #include "runtime/image.h"
 #include "runtime/raster/fill.h"
+#include "runtime/raster/interleave.h"
 #include "runtime/raster/lines.h"
 #include "runtime/raster/shade_triangles.h"
 
@@ -10,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -276,13 +278,12 @@ private:
         }
     }
 
-    /// + 0 as in ray pictures: no -0.
     void store(const Crop& pixels, const Crop& crop, Image& image) const {
-        const int n = tiles_.samples_across();
-        if (n == 1) {
+        if (tiles_.samples_across() == 1) {
             store_samples(pixels, crop, image);
             return;
         }
+        const int n = tiles_.samples_across();
         for (int y = pixels.y0; y < pixels.y1; ++y) {
             float* to = image.at(pixels.x0 - crop.x0, y - crop.y0);
             for (int x = pixels.x0; x < pixels.x1; ++x, to += 3) {
@@ -299,39 +300,38 @@ private:
             }
         }
     }
-    /// One for each pixel.
+    /// One for each pixel, by rows of blocks.
     void store_samples(const Crop& pixels, const Crop& crop, Image& image) const {
-        for_each_block(pixels, [&](std::size_t block, int column, int row) {
-            R red[N], green[N], blue[N];
-            store_lanes(red, light_[block].r);
-            store_lanes(green, light_[block].g);
-            store_lanes(blue, light_[block].b);
-            const int x = buffer_.left() + column, y = buffer_.top() + row;
-            const int x0 = std::max(x, pixels.x0), x1 = std::min(x + Buffer::block_width, pixels.x1),
-                      y0 = std::max(y, pixels.y0), y1 = std::min(y + Buffer::block_height, pixels.y1);
-            for (int j = y0; j < y1; ++j) {
-                float* to = image.at(x0 - crop.x0, j - crop.y0);
-                int k = (j - y) * Buffer::block_width + x0 - x;
-                for (int i = x0; i < x1; ++i, ++k, to += 3) {
-                    to[0] = static_cast<float>(red[k]) + 0.0F;
-                    to[1] = static_cast<float>(green[k]) + 0.0F;
-                    to[2] = static_cast<float>(blue[k]) + 0.0F;
+        constexpr std::size_t block_floats = std::size_t{3} * Buffer::block_width,
+                              row_floats = block_floats * Buffer::blocks_across;
+        float rows[Buffer::block_height][row_floats];
+        const int x0 = pixels.x0 - buffer_.left(), x1 = pixels.x1 - buffer_.left();
+        for (int top = pixels.y0 - (pixels.y0 - buffer_.top()) % Buffer::block_height; top < pixels.y1;
+             top += Buffer::block_height) {
+            for (int x = x0 / Buffer::block_width * Buffer::block_width; x < x1; x += Buffer::block_width) {
+                float colors[std::size_t{3} * N];
+                store_interleaved(light_[Buffer::block_of(x, top - buffer_.top())], colors);
+                for (std::size_t j = 0; j < Buffer::block_height; ++j) {
+                    std::memcpy(rows[j] + 3 * x, colors + j * block_floats, block_floats * sizeof(float));
                 }
             }
-        });
+            for (int y = std::max(top, pixels.y0); y < std::min(top + Buffer::block_height, pixels.y1); ++y) {
+                std::copy_n(rows[y - top] + 3 * x0, 3 * (x1 - x0),
+                            image.at(pixels.x0 - crop.x0, y - crop.y0));
+            }
+        }
     }
     void store_background(const Crop& pixels, const Crop& crop, Image& image) const {
         const Rgb<R> background(scene_.background);
-        const float color[] = {static_cast<float>(background.r) + 0.0F,
-                               static_cast<float>(background.g) + 0.0F,
-                               static_cast<float>(background.b) + 0.0F};
-        float* const first = image.at(pixels.x0 - crop.x0, pixels.y0 - crop.y0);
-        const std::ptrdiff_t numbers = std::ptrdiff_t{3} * (pixels.x1 - pixels.x0);
-        for (std::ptrdiff_t i = 0; i < numbers; ++i) {
-            first[i] = color[i % 3];
+        const auto count = static_cast<std::size_t>(pixels.x1 - pixels.x0);
+        std::array<float, std::size_t{3} * most_tile_samples> row;
+        for (std::size_t i = 0; i < count; ++i) {
+            row[3 * i] = static_cast<float>(background.r) + 0.0F;
+            row[3 * i + 1] = static_cast<float>(background.g) + 0.0F;
+            row[3 * i + 2] = static_cast<float>(background.b) + 0.0F;
         }
-        for (int y = pixels.y0 + 1; y < pixels.y1; ++y) {
-            std::copy_n(first, numbers, image.at(pixels.x0 - crop.x0, y - crop.y0));
+        for (int y = pixels.y0; y < pixels.y1; ++y) {
+            std::copy_n(row.data(), 3 * count, image.at(pixels.x0 - crop.x0, y - crop.y0));
         }
     }
     Rgb<R> light_at(int column, int row) const {
