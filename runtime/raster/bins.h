@@ -71,20 +71,45 @@ template <class R>
 struct Bin {
     std::vector<ScreenTriangle<R>> triangles;
     std::vector<ScreenLine<R>> lines;
-    std::vector<std::vector<std::uint32_t>> triangles_of; ///< of each tile
+    std::vector<std::vector<SmallTriangle<R>>> small_of;  ///< of each tile
+    std::vector<std::vector<std::uint32_t>> triangles_of; ///< of each tile: the others
     std::vector<std::vector<std::uint32_t>> lines_of;     ///< of each tile
 
     /// Keeps the memory.
     void clear(const TileGrid& tiles) {
         triangles.clear();
         lines.clear();
-        const auto tile_count = static_cast<std::size_t>(tiles.count());
-        for (auto* lists : {&triangles_of, &lines_of}) {
-            for (auto& list : *lists) {
+        const auto clear_lists = [&](auto& lists) {
+            for (auto& list : lists) {
                 list.clear();
             }
-            lists->resize(tile_count);
-        }
+            lists.resize(static_cast<std::size_t>(tiles.count()));
+        };
+        clear_lists(small_of);
+        clear_lists(triangles_of);
+        clear_lists(lines_of);
+    }
+    bool has_nothing_in(std::size_t tile) const {
+        return small_of[tile].empty() && triangles_of[tile].empty() && lines_of[tile].empty();
+    }
+    /// `column`, `row`: of its square's first sample, in the picture. Some drawn samples are in the square.
+    void add(SmallTriangle<R> t, std::int32_t column, std::int32_t row, const TileGrid& tiles) {
+        constexpr std::int32_t width = SmallTriangle<R>::width;
+        const SampleBox square{column, row, column + width, row + width};
+        const std::uint32_t covered = t.covered;
+        tiles.for_each_tile(intersection(square, tiles.box()), [&](std::size_t tile) {
+            const std::int32_t x = column - tiles.left_of(static_cast<int>(tile)),
+                               y = row - tiles.top_of(static_cast<int>(tile));
+            const std::uint32_t inside =
+                covered & samples_in_tile(x, tiles.tile_samples()) * 0x1111U &
+                rows_in_tile(y, tiles.tile_samples());
+            if (inside != 0) {
+                t.column = static_cast<std::int16_t>(x);
+                t.row = static_cast<std::int16_t>(y);
+                t.covered = static_cast<std::uint16_t>(inside);
+                small_of[tile].push_back(t);
+            }
+        });
     }
     void add(const ScreenTriangle<R>& t, const SampleBox& box, const TileGrid& tiles) {
         const auto index = static_cast<std::uint32_t>(triangles.size());
@@ -95,6 +120,18 @@ struct Bin {
         const auto index = static_cast<std::uint32_t>(lines.size());
         lines.push_back(line);
         tiles.for_each_tile(box, [&](std::size_t tile) { lines_of[tile].push_back(index); });
+    }
+
+private:
+    /// Of 4 samples from `first` on, a bit for each that is in [0, size).
+    static std::uint32_t samples_in_tile(std::int32_t first, std::int32_t size) {
+        const std::int32_t before = std::max(0, -first), beyond = std::max(0, first + 4 - size);
+        return (0xFU << before) & (0xFU >> beyond);
+    }
+    /// The same of rows of 4 samples.
+    static std::uint32_t rows_in_tile(std::int32_t first, std::int32_t size) {
+        const std::int32_t before = std::max(0, -first), beyond = std::max(0, first + 4 - size);
+        return (0xFFFFU << 4 * before) & (0xFFFFU >> 4 * beyond);
     }
 };
 

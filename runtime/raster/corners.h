@@ -7,7 +7,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <iterator>
+#include <utility>
+#include <vector>
 
 /// The corners of a model's triangles, wherever they lie.
 namespace scc::runtime::raster {
@@ -38,6 +41,79 @@ WorldTriangle<R> world_triangle(const RasterModel<R>& model, const Meshes& meshe
     for (std::size_t k = 0; k < 3; ++k) {
         result.corners[k] = model.positions[triangle.positions[k]];
         result.weights[k] = surface.at_infinity && k != 0 ? R(0) : R(1);
+    }
+    return result;
+}
+
+/// The corners of several triangles, each coordinate as a pack.
+template <class L>
+struct CornerPacks {
+    std::array<Vec3<L>, 3> corners;
+    std::array<L, 3> weights; ///< 0: the corner is a direction
+};
+
+namespace detail {
+
+/// Of a mesh, from triangle `i` on, in its own space: a leaf's corners lie side by side.
+template <class L>
+std::array<Vec3<L>, 3> corners_in_mesh(const MeshData& mesh, const std::vector<std::uint32_t>& parts,
+                                       std::uint32_t i, std::uint32_t count) {
+    constexpr std::size_t most = 4; // triangles of a leaf; what a leaf lacks, the next one overwrites
+    static_assert(bvh_max_leaf <= most && most <= triangle_padding);
+    float numbers[9][lane_count<L> + most] = {};
+    for (std::uint32_t k = 0; k < count;) {
+        const TrianglePlace place = place_of(parts[i + k]);
+        const float* from = triangle_word(mesh, place, 0);
+        for (auto& component : numbers) {
+            std::memcpy(component + k, std::exchange(from, from + place.count), most * sizeof(float));
+        }
+        k += place.count - place.which;
+    }
+    const auto vector = [&](std::size_t n) {
+        return Vec3<L>{load_lanes<L>(numbers[n]), load_lanes<L>(numbers[n + 1]),
+                       load_lanes<L>(numbers[n + 2])};
+    };
+    return {vector(0), vector(3), vector(6)};
+}
+
+} // namespace detail
+
+/// As world_triangle, of `count` triangles of a surface from `i` on, which L has lanes for; the others have
+/// any finite numbers.
+template <class L, class Meshes>
+CornerPacks<L> world_triangles(const RasterModel<RealOf<L>>& model, const Meshes& meshes,
+                               const RasterSurface<RealOf<L>>& surface, std::uint32_t i, std::uint32_t count) {
+    using R = RealOf<L>;
+    CornerPacks<L> result;
+    if (surface.is_mesh) {
+        result.corners =
+            detail::corners_in_mesh<L>(meshes[surface.mesh], model.mesh_parts[surface.mesh], i, count);
+        result.weights.fill(L(1));
+        if (surface.is_placed) {
+            for (Vec3<L>& corner : result.corners) {
+                corner = transform_point(surface.world_from_object, corner);
+            }
+        }
+        return result;
+    }
+    R numbers[9][lane_count<L>] = {};
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const RasterTriangle& triangle = model.triangles[surface.own + i + k];
+        for (std::size_t c = 0; c < 3; ++c) {
+            const Vec3<R>& corner = model.positions[triangle.positions[c]];
+            numbers[3 * c][k] = corner.x;
+            numbers[3 * c + 1][k] = corner.y;
+            numbers[3 * c + 2][k] = corner.z;
+        }
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+        const auto load = [&](std::size_t n) {
+            L pack;
+            std::memcpy(&pack.v, numbers[3 * c + n], sizeof pack.v);
+            return pack;
+        };
+        result.corners[c] = {load(0), load(1), load(2)};
+        result.weights[c] = L(surface.at_infinity && c != 0 ? R(0) : R(1));
     }
     return result;
 }

@@ -46,11 +46,13 @@ public:
     }
 
     static std::size_t block_of(int column, int row) {
-        return static_cast<std::size_t>(row / block_height * blocks_across + column / block_width);
+        return static_cast<std::size_t>(row) / block_height * blocks_across +
+               static_cast<std::size_t>(column) / block_width;
     }
     static std::size_t sample_of(int column, int row) {
         return block_of(column, row) * N +
-               static_cast<std::size_t>(row % block_height * block_width + column % block_width);
+               static_cast<std::size_t>(row) % block_height * block_width +
+               static_cast<std::size_t>(column) % block_width;
     }
     const L& depths(std::size_t block) const { return z_[block]; }
     R depth(int column, int row) const {
@@ -80,6 +82,21 @@ public:
                 entry_[block] = to_grid(wins) != 0 ? Entries{} + entry : entry_[block];
             }
         });
+    }
+    template <class Earlier>
+    void fill(const SmallTriangle<R>& t, std::uint32_t entry, Earlier&& earlier) {
+        R* const depths = reinterpret_cast<R*>(z_.data());
+        auto* const entries = reinterpret_cast<std::uint32_t*>(entry_.data());
+        for (unsigned left = t.covered; left != 0; left &= left - 1) {
+            const int k = __builtin_ctz(left);
+            const int column = k % SmallTriangle<R>::width, row = k / SmallTriangle<R>::width;
+            const R z = (t.z + t.z_y * static_cast<R>(row)) + t.z_x * static_cast<R>(column);
+            const std::size_t i = sample_of(t.column + column, t.row + row);
+            if (z < depths[i] || (z == depths[i] && entries[i] != no_entry && earlier(entry, entries[i]))) {
+                depths[i] = z;
+                entries[i] = entry;
+            }
+        }
     }
     /// The same without showing it: f(sample, z) for each sample.
     template <class Earlier, class F>
@@ -164,8 +181,8 @@ private:
         if (box.empty()) {
             return;
         }
-        if (is_small(t)) {
-            cover_small(t, box, f);
+        if (is_narrow(t)) {
+            cover_narrow(t, box, f);
             return;
         }
         std::array<Edge, 3> edges;
@@ -192,14 +209,14 @@ private:
             cover_blocks<std::int32_t>(t, edges, blocks, f);
         }
     }
-    /// So few samples across that edge functions have 32 bits even on the grid itself.
-    static bool is_small(const ScreenTriangle<R>& t) {
-        const auto [x0, x1] = std::minmax({t.x[0], t.x[1], t.x[2]});
-        const auto [y0, y1] = std::minmax({t.y[0], t.y[1], t.y[2]});
-        return std::max(x1 - x0, y1 - y0) <= 32 * grid;
+    static bool is_narrow(const ScreenTriangle<R>& t) {
+        const auto extent = [](const std::array<std::int32_t, 3>& c) {
+            return std::max(std::max(c[0], c[1]), c[2]) - std::min(std::min(c[0], c[1]), c[2]);
+        };
+        return extent(t.x) <= most_narrow && extent(t.y) <= most_narrow;
     }
     template <class F>
-    void cover_small(const ScreenTriangle<R>& t, const SampleBox& box, F&& f) const {
+    void cover_narrow(const ScreenTriangle<R>& t, const SampleBox& box, F&& f) const {
         const SampleBox blocks = whole_blocks(box);
         const std::int32_t left = (left_ + blocks.x0) * grid, top = (top_ + blocks.y0) * grid;
         Grid start[3];

@@ -168,14 +168,14 @@ private:
         model_.mesh_parts.resize(scene_.meshes.size());
         std::vector<std::uint32_t>& parts = model_.mesh_parts[surface.mesh];
         const MeshData& mesh = scene_.meshes[surface.mesh];
-        if (parts.empty()) {
-            parts.reserve(mesh.triangle_count);
+        if (parts.empty()) { // in the order in which they lie in memory
+            parts.resize(mesh.triangle_count);
             for (std::uint32_t n = 0; n < mesh.node_count; ++n) {
                 for (const std::uint32_t child : mesh.nodes[n].child) {
                     if (is_leaf(child)) {
                         const BvhLeaf leaf = leaf_of(child);
                         for (std::uint32_t i = 0; i < leaf.count; ++i) {
-                            parts.push_back(part_of({leaf.first, leaf.count, i}));
+                            parts[leaf.first + i] = part_of({leaf.first, leaf.count, i});
                         }
                     }
                 }

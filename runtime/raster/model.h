@@ -39,7 +39,8 @@ struct RasterModel {
     std::vector<Vec3<R>> positions;         ///< or directions, see RasterSurface::at_infinity
     std::vector<Vec3<R>> normals;           ///< unit, exact
     std::vector<RasterTriangle> triangles;
-    std::vector<std::vector<std::uint32_t>> mesh_parts; ///< of each mesh: ShapeHit::part of its triangles
+    /// Of each mesh: ShapeHit::part of its triangles, in the order in which they lie in memory.
+    std::vector<std::vector<std::uint32_t>> mesh_parts;
     std::vector<LineSegment<R>> segments;               ///< edges of polygons, and polylines
     std::uint32_t triangle_count = 0;                   ///< of all surfaces
     std::vector<std::uint32_t> left_out; ///< ids of what has no mesh: unbounded quadrics and solids of them

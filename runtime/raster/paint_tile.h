@@ -40,7 +40,7 @@ public:
         entries_.clear();
         through_.clear();
         const bool is_empty = std::all_of(bins_.begin(), bins_.end(), [&](const Bin<R>& bin) {
-            return bin.triangles_of[index].empty() && bin.lines_of[index].empty();
+            return bin.has_nothing_in(index);
         });
         if (is_empty) {
             return;
@@ -50,6 +50,9 @@ public:
         shader_.start(buffer_.left(), buffer_.top());
         const auto earlier = [this](std::uint32_t a, std::uint32_t b) { return is_earlier(a, b); };
         for (const Bin<R>& bin : bins_) {
+            for (const SmallTriangle<R>& t : bin.small_of[index]) {
+                buffer_.fill(t, add_entry(t.id), earlier);
+            }
             for (const std::uint32_t i : bin.triangles_of[index]) {
                 const ScreenTriangle<R>& t = bin.triangles[i];
                 const std::uint32_t entry = add_entry(t.id);

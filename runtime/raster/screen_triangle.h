@@ -15,6 +15,9 @@ namespace scc::runtime::raster {
 inline constexpr int grid_bits = 8;
 inline constexpr int grid = 1 << grid_bits;
 
+/// On the grid: of triangles that are no wider and no higher, edge functions have 32 bits.
+inline constexpr std::int32_t most_narrow = 32 * grid;
+
 /// The number of a triangle in the model, with what is told of it beside.
 inline constexpr std::uint32_t seen_from_back = 1U << 30;
 inline constexpr std::uint32_t lets_light_through = 1U << 31;
@@ -46,11 +49,24 @@ inline SampleBox intersection(const SampleBox& a, const SampleBox& b) {
 /// The samples whose centres are in a triangle's bounding box.
 template <class R>
 SampleBox box_of(const ScreenTriangle<R>& t) {
-    const auto [x0, x1] = std::minmax({t.x[0], t.x[1], t.x[2]});
-    const auto [y0, y1] = std::minmax({t.y[0], t.y[1], t.y[2]});
+    const std::int32_t x0 = std::min(std::min(t.x[0], t.x[1]), t.x[2]),
+                       x1 = std::max(std::max(t.x[0], t.x[1]), t.x[2]),
+                       y0 = std::min(std::min(t.y[0], t.y[1]), t.y[2]),
+                       y1 = std::max(std::max(t.y[0], t.y[1]), t.y[2]);
     return {(x0 + grid - 1) >> grid_bits, (y0 + grid - 1) >> grid_bits, (x1 >> grid_bits) + 1,
             (y1 >> grid_bits) + 1};
 }
+
+/// What a triangle shows of samples that lie in a square, in a tile; most triangles of fine meshes are such.
+template <class R>
+struct SmallTriangle {
+    static constexpr std::int32_t width = 4; ///< of the square
+
+    std::int16_t column, row; ///< the square's first sample in the tile; may lie before it
+    std::uint16_t covered;    ///< a bit for each sample that is shown, by rows; all are in the tile
+    std::uint32_t id;
+    R z, z_x, z_y; ///< z* at the first sample, and its change from sample to sample
+};
 
 /// A line as it is drawn: on the same grid, and in the direction in which it runs.
 template <class R>

@@ -9,7 +9,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
+#include <utility>
 
 /// From triangles in the world to triangles on the grid of samples.
 namespace scc::runtime::raster {
@@ -116,20 +118,10 @@ private:
     /// `count` triangles of a surface, from `i` of its own on.
     void add(const RasterSurface<R>& surface, const Flags& flags, std::uint32_t i, std::uint32_t count,
              Bin<R>& bin) const {
-        R numbers[12][N] = {};
-        for (std::uint32_t k = 0; k < count; ++k) {
-            const WorldTriangle<R> t = world_triangle(model_, scene_.meshes, surface, i + k);
-            for (std::size_t c = 0; c < 3; ++c) {
-                numbers[4 * c][k] = t.corners[c].x;
-                numbers[4 * c + 1][k] = t.corners[c].y;
-                numbers[4 * c + 2][k] = t.corners[c].z;
-                numbers[4 * c + 3][k] = t.weights[c];
-            }
-        }
+        const CornerPacks<L> world = world_triangles<L>(model_, scene_.meshes, surface, i, count);
         std::array<Corner, 3> corners;
         for (std::size_t c = 0; c < 3; ++c) {
-            const auto load = [&](std::size_t n) { return pack_from(numbers[4 * c + n]); };
-            corners[c] = view_.to_clip(view_.to_eye(Vec3<L>{load(0), load(1), load(2)}, load(3)));
+            corners[c] = view_.to_clip(view_.to_eye(world.corners[c], world.weights[c]));
         }
         using Mask = MaskOf<L>;
         Mask usable(true), cut(false);
@@ -161,60 +153,208 @@ private:
                  number + static_cast<std::uint32_t>(k), bin);
         }
     }
-    static L pack_from(const R* numbers) {
-        L result;
-        std::memcpy(&result.v, numbers, sizeof result.v);
-        return result;
-    }
     static ClipPoint<R> lane_of(const Corner& p, int k) {
         return {lane(p.x, k), lane(p.y, k), lane(p.z, k), lane(p.w, k)};
     }
 
-    /// Whole triangles in the lanes of `among`.
+    using Ints = GridPack<L>;
+    static Ints least(const Ints& a, const Ints& b) { return a < b ? a : b; }
+    static Ints most(const Ints& a, const Ints& b) { return a > b ? a : b; }
+
+    /// Triangles on the grid, and the samples, to the last, that are in their bounding boxes.
+    struct OnGrid {
+        std::array<Ints, 3> x, y;
+        Ints x0, y0, x1, y1;
+        Ints narrow; ///< -1 in lanes whose edge functions have 32 bits
+    };
+    static OnGrid on_grid_of(const std::array<Corner, 3>& p) {
+        OnGrid t;
+        for (std::size_t c = 0; c < 3; ++c) {
+            t.x[c] = on_grid(p[c].x);
+            t.y[c] = on_grid(p[c].y);
+        }
+        const Ints left = least(least(t.x[0], t.x[1]), t.x[2]), right = most(most(t.x[0], t.x[1]), t.x[2]),
+                   top = least(least(t.y[0], t.y[1]), t.y[2]), bottom = most(most(t.y[0], t.y[1]), t.y[2]);
+        t.x0 = (left + (grid - 1)) >> grid_bits;
+        t.y0 = (top + (grid - 1)) >> grid_bits;
+        t.x1 = right >> grid_bits;
+        t.y1 = bottom >> grid_bits;
+        t.narrow = (right - left <= most_narrow) & (bottom - top <= most_narrow);
+        return t;
+    }
+
+    /// Whole triangles in the lanes of `among`. Most that are not seen are recognised all lanes at once, and
+    /// nothing of them is stored.
     void place(const std::array<Corner, 3>& corners, const Flags& flags, std::uint32_t number, unsigned among,
                Bin<R>& bin) const {
         std::array<Corner, 3> p;
-        std::array<GridPack<L>, 3> x, y;
         for (std::size_t c = 0; c < 3; ++c) {
             const L inverse = L(1) / corners[c].w;
             p[c] = {corners[c].x * inverse, corners[c].y * inverse, corners[c].z * inverse, corners[c].w};
-            x[c] = on_grid(p[c].x);
-            y[c] = on_grid(p[c].y);
         }
-        among &= may_cover(x, y);
+        OnGrid t = on_grid_of(p);
+        among &= may_cover(t);
         if (among == 0) {
             return;
         }
-        const auto sample = [](const GridPack<L>& v) {
-            const GridPack<L> whole = v >> grid_bits;
-            return L(__builtin_convertvector(whole, typename L::Vector)) + L(R(0.5));
-        };
-        const detail::DepthPlane<L> depth = detail::depth_plane(p, sample(x[0]), sample(y[0]));
-        for (; among != 0; among &= among - 1) {
-            const int k = __builtin_ctz(among);
-            ScreenTriangle<R> t;
-            for (std::size_t c = 0; c < 3; ++c) {
-                t.x[c] = x[c][k];
-                t.y[c] = y[c][k];
-            }
-            t.z = lane(depth.at, k);
-            t.z_x = lane(depth.x, k);
-            t.z_y = lane(depth.y, k);
-            store(flags, number + static_cast<std::uint32_t>(k), t, bin);
+        const unsigned clockwise = turn(t, among);
+        // Rows run downwards: what is counter-clockwise has a negative area.
+        const unsigned back = flags.mirrored ? ~clockwise : clockwise;
+        if (choice_.cull == Cull::back) {
+            among &= ~back;
         }
+        unsigned small = 0;
+        Ints covered{};
+        if (((flags.front | flags.back) & lets_light_through) == 0) {
+            constexpr std::int32_t width = SmallTriangle<R>::width;
+            const Ints few = (t.x1 - t.x0 < width) & (t.y1 - t.y0 < width) & t.narrow;
+            const unsigned candidates = among & grid_bits_of<L>(few);
+            if (candidates != 0) {
+                covered = coverage(t, candidates) & few;
+                const Ints some = covered != 0;
+                small = candidates & grid_bits_of<L>(some);
+                among = (among & ~candidates) | small;
+            }
+        }
+        if (among == 0) {
+            return;
+        }
+        store(p, t, covered, {among, small, back}, flags, number, bin);
     }
     /// The lanes in whose bounding boxes there are sample centres that are drawn.
-    unsigned may_cover(const std::array<GridPack<L>, 3>& x, const std::array<GridPack<L>, 3>& y) const {
-        const auto least = [](const GridPack<L>& a, const GridPack<L>& b) { return a < b ? a : b; };
-        const auto most = [](const GridPack<L>& a, const GridPack<L>& b) { return a > b ? a : b; };
+    unsigned may_cover(const OnGrid& t) const {
         const SampleBox& box = tiles_.box();
-        const GridPack<L> x0 = (least(least(x[0], x[1]), x[2]) + (grid - 1)) >> grid_bits,
-                          x1 = most(most(x[0], x[1]), x[2]) >> grid_bits,
-                          y0 = (least(least(y[0], y[1]), y[2]) + (grid - 1)) >> grid_bits,
-                          y1 = most(most(y[0], y[1]), y[2]) >> grid_bits;
-        const GridPack<L> covered =
-            (x0 <= x1) & (y0 <= y1) & (x0 < box.x1) & (y0 < box.y1) & (x1 >= box.x0) & (y1 >= box.y0);
+        const Ints covered = (t.x0 <= t.x1) & (t.y0 <= t.y1) & (t.x0 < box.x1) & (t.y0 < box.y1) &
+                             (t.x1 >= box.x0) & (t.y1 >= box.y0);
         return grid_bits_of<L>(covered);
+    }
+    /// Turns the triangles so that their edge functions are positive inside, and keeps their first corner,
+    /// from which z is counted. The lanes whose triangles were clockwise as the picture shows them; those
+    /// without an area leave `among`.
+    static unsigned turn(OnGrid& t, unsigned& among) {
+        const Ints area =
+            (t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) - (t.x[2] - t.x[0]) * (t.y[1] - t.y[0]); // where narrow
+        const Ints none = area == 0;
+        Ints swapped = area < 0;
+        const unsigned narrow = grid_bits_of<L>(t.narrow);
+        unsigned flat = narrow & grid_bits_of<L>(none), counter = narrow & grid_bits_of<L>(swapped);
+        for (unsigned wide = among & ~narrow; wide != 0; wide &= wide - 1) {
+            const int k = __builtin_ctz(wide);
+            const std::int64_t exactly =
+                std::int64_t{t.x[1][k] - t.x[0][k]} * (t.y[2][k] - t.y[0][k]) -
+                std::int64_t{t.x[2][k] - t.x[0][k]} * (t.y[1][k] - t.y[0][k]);
+            flat |= exactly == 0 ? 1U << k : 0U;
+            counter |= exactly < 0 ? 1U << k : 0U;
+            swapped[k] = exactly < 0 ? -1 : 0;
+        }
+        among &= ~flat;
+        for (auto* coordinate : {&t.x, &t.y}) {
+            const Ints second = (*coordinate)[1], third = (*coordinate)[2];
+            (*coordinate)[1] = swapped ? third : second;
+            (*coordinate)[2] = swapped ? second : third;
+        }
+        return ~counter;
+    }
+    /// Of small triangles, as SmallTriangle has it: the same as TileBuffer finds, for all lanes at once.
+    static Ints coverage(const OnGrid& t, unsigned small) {
+        std::array<Ints, 3> row_start, step_x, step_y;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t k = i == 2 ? 0 : i + 1;
+            const Ints x = t.y[i] - t.y[k], y = t.x[k] - t.x[i];
+            const Ints is_top_left = (x > 0) | ((x == 0) & (y > 0)); // -1 where so
+            row_start[i] =
+                (y * (t.y0 * grid - t.y[i]) + x * (t.x0 * grid - t.x[i]) - 1 - is_top_left) >> grid_bits;
+            step_x[i] = x;
+            step_y[i] = y;
+        }
+        const auto [columns, rows] = most_samples(t, small);
+        Ints covered{};
+        for (std::int32_t row = 0; row < rows; ++row) {
+            Ints e0 = row_start[0], e1 = row_start[1], e2 = row_start[2];
+            for (std::int32_t column = 0; column < columns; ++column) {
+                const Ints inside = (e0 | e1 | e2) >= 0;
+                covered |= inside & (1 << (SmallTriangle<R>::width * row + column));
+                e0 += step_x[0];
+                e1 += step_x[1];
+                e2 += step_x[2];
+            }
+            for (std::size_t i = 0; i < 3; ++i) {
+                row_start[i] += step_y[i];
+            }
+        }
+        return covered;
+    }
+    /// Columns and rows of samples that some of these boxes have.
+    static std::pair<std::int32_t, std::int32_t> most_samples(const OnGrid& t, unsigned small) {
+        std::int32_t columns = 1, rows = 1;
+        for (; columns < SmallTriangle<R>::width; ++columns) {
+            const Ints more = t.x1 - t.x0 >= columns;
+            if ((grid_bits_of<L>(more) & small) == 0) {
+                break;
+            }
+        }
+        for (; rows < SmallTriangle<R>::width; ++rows) {
+            const Ints more = t.y1 - t.y0 >= rows;
+            if ((grid_bits_of<L>(more) & small) == 0) {
+                break;
+            }
+        }
+        return {columns, rows};
+    }
+
+    /// Lanes: those that are stored, the small ones of them, and those seen from behind.
+    struct Lanes {
+        unsigned among, small, back;
+    };
+    void store(const std::array<Corner, 3>& p, const OnGrid& t, const Ints& covered, const Lanes& lanes,
+               const Flags& flags, std::uint32_t number, Bin<R>& bin) const {
+        const Ints x_own = t.x[0] >> grid_bits, y_own = t.y[0] >> grid_bits;
+        const Ints few = covered != 0;
+        const auto center = [](const Ints& v) {
+            return L(__builtin_convertvector(v, typename L::Vector)) + L(R(0.5));
+        };
+        const Ints first_x = few ? t.x0 : x_own, first_y = few ? t.y0 : y_own;
+        detail::DepthPlane<L> depth = detail::depth_plane(p, center(first_x), center(first_y));
+        if (choice_.pushes_back) {
+            depth.at = depth.at + maximum(absolute(depth.x), absolute(depth.y)) +
+                       L(R(16) * R(std::numeric_limits<float>::epsilon()));
+        }
+        R z[N], z_x[N], z_y[N];
+        store_lanes(z, depth.at);
+        store_lanes(z_x, depth.x);
+        store_lanes(z_y, depth.y);
+        std::int32_t column[N], row[N], bits[N];
+        std::memcpy(column, &first_x, sizeof column);
+        std::memcpy(row, &first_y, sizeof row);
+        std::memcpy(bits, &covered, sizeof bits);
+        for (unsigned left = lanes.small; left != 0; left &= left - 1) {
+            const int k = __builtin_ctz(left);
+            SmallTriangle<R> small;
+            small.covered = static_cast<std::uint16_t>(bits[k]);
+            small.id = id_of(flags, number, lanes.back, k);
+            small.z = z[k];
+            small.z_x = z_x[k];
+            small.z_y = z_y[k];
+            bin.add(small, column[k], row[k], tiles_);
+        }
+        for (unsigned left = lanes.among & ~lanes.small; left != 0; left &= left - 1) {
+            const int k = __builtin_ctz(left);
+            ScreenTriangle<R> large;
+            for (std::size_t c = 0; c < 3; ++c) {
+                large.x[c] = t.x[c][k];
+                large.y[c] = t.y[c][k];
+            }
+            large.z = z[k];
+            large.z_x = z_x[k];
+            large.z_y = z_y[k];
+            large.id = id_of(flags, number, lanes.back, k);
+            const SampleBox box{t.x0[k], t.y0[k], t.x1[k] + 1, t.y1[k] + 1};
+            bin.add(large, intersection(box, tiles_.box()), tiles_);
+        }
+    }
+    static std::uint32_t id_of(const Flags& flags, std::uint32_t number, unsigned back, int k) {
+        return (number + static_cast<std::uint32_t>(k)) |
+               ((back >> k & 1U) != 0 ? flags.back : flags.front);
     }
 
     void clip(const std::array<ClipPoint<R>, 3>& corners, const Flags& flags, std::uint32_t number,
@@ -240,33 +380,6 @@ private:
             }
             place(p, flags, number, 1, bin);
         }
-    }
-
-    void store(const Flags& flags, std::uint32_t number, ScreenTriangle<R>& t, Bin<R>& bin) const {
-        const std::int64_t area = std::int64_t{t.x[1] - t.x[0]} * (t.y[2] - t.y[0]) -
-                                  std::int64_t{t.x[2] - t.x[0]} * (t.y[1] - t.y[0]);
-        if (area == 0) {
-            return;
-        }
-        // Rows run downwards: what is counter-clockwise has a negative area.
-        const bool back = (area > 0) != flags.mirrored;
-        if (back && choice_.cull == Cull::back) {
-            return;
-        }
-        const SampleBox box = intersection(box_of(t), tiles_.box());
-        if (box.empty()) {
-            return;
-        }
-        t.id = number | (back ? flags.back : flags.front);
-        if (choice_.pushes_back) {
-            t.z += std::max(absolute(t.z_x), absolute(t.z_y)) + 16 * std::numeric_limits<float>::epsilon();
-        }
-        if (area < 0) {
-            // Not the first, from which z is counted.
-            std::swap(t.x[1], t.x[2]);
-            std::swap(t.y[1], t.y[2]);
-        }
-        bin.add(t, box, tiles_);
     }
 
     const S& scene_;
