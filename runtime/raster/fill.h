@@ -25,7 +25,7 @@ public:
     static constexpr int block_height = N / block_width;
     static constexpr int size = most_tile_samples;
     static constexpr int blocks_across = size / block_width, blocks_down = size / block_height;
-    static_assert(block_width * block_height == N && size % block_height == 0);
+    static_assert(block_width * block_height == N && (N & (N - 1)) == 0 && size % block_height == 0);
     static constexpr std::size_t samples = std::size_t{size} * size;
 
     TileBuffer() : z_(samples / N), entry_(samples / N) {
@@ -75,12 +75,12 @@ public:
     /// entry)` holds.
     template <class Earlier>
     void fill(const ScreenTriangle<R>& t, std::uint32_t entry, Earlier&& earlier) {
-        cover(t, [&](std::size_t block, const Mask& covered, const L& z) {
+        L* const depths = z_.data();
+        Entries* const entries = entry_.data();
+        cover(t, [&, depths, entries](std::size_t block, const Mask& covered, const L& z) {
             const Mask wins = nearer(block, covered, z, entry, earlier);
-            if (any(wins)) {
-                z_[block] = choose(wins, z, z_[block]);
-                entry_[block] = to_grid(wins) != 0 ? Entries{} + entry : entry_[block];
-            }
+            depths[block] = choose(wins, z, depths[block]);
+            entries[block] = to_grid(wins) != 0 ? Entries{} + entry : entries[block];
         });
     }
     template <class Earlier>
@@ -230,16 +230,17 @@ private:
             step_x[i] = x * block_width;
             step_y[i] = y * block_height;
         }
-        const std::int32_t from_column = left_ - t.z_column(), from_row = top_ - t.z_row();
+        const L first_column = columns_ + L(static_cast<R>(left_ + blocks.x0 - t.z_column()));
+        const std::int32_t from_row = top_ - t.z_row();
         for (std::int32_t y = blocks.y0; y < blocks.y1; y += block_height) {
             Grid e0 = start[0], e1 = start[1], e2 = start[2];
             const L z_row = L(t.z) + L(t.z_y) * (rows_ + L(static_cast<R>(from_row + y)));
+            L column = first_column;
             std::size_t block = block_of(blocks.x0, y);
             for (std::int32_t x = blocks.x0; x < blocks.x1; x += block_width, ++block) {
-                const Mask covered = from_grid((e0 | e1 | e2) >= 0);
-                if (any(covered)) {
-                    f(block, covered, z_row + L(t.z_x) * (columns_ + L(static_cast<R>(from_column + x))));
-                }
+                // Blocks in the box of so small a triangle that it leaves out are few, but hard to foresee.
+                f(block, from_grid((e0 | e1 | e2) >= 0), z_row + L(t.z_x) * column);
+                column = column + L(R(block_width));
                 e0 += step_x[0];
                 e1 += step_x[1];
                 e2 += step_x[2];
@@ -254,9 +255,8 @@ private:
     static constexpr std::int64_t most_slope = 1 << 24;
 
     static SampleBox whole_blocks(const SampleBox& box) {
-        return {box.x0 / block_width * block_width, box.y0 / block_height * block_height,
-                (box.x1 + block_width - 1) / block_width * block_width,
-                (box.y1 + block_height - 1) / block_height * block_height};
+        return {box.x0 & -block_width, box.y0 & -block_height, (box.x1 + block_width - 1) & -block_width,
+                (box.y1 + block_height - 1) & -block_height};
     }
 
     template <class Int, class F>
