@@ -317,26 +317,28 @@ private:
             }
         }
     }
-    /// One for each pixel, by rows of blocks.
+    /// One for each pixel.
     void store_samples(const Crop& pixels, const Crop& crop, Image& image) const {
-        constexpr std::size_t block_floats = std::size_t{3} * Buffer::block_width,
-                              row_floats = block_floats * Buffer::blocks_across;
-        float rows[Buffer::block_height][row_floats];
-        const int x0 = pixels.x0 - buffer_.left(), x1 = pixels.x1 - buffer_.left();
-        for (int top = pixels.y0 - (pixels.y0 - buffer_.top()) % Buffer::block_height; top < pixels.y1;
-             top += Buffer::block_height) {
-            for (int x = x0 / Buffer::block_width * Buffer::block_width; x < x1; x += Buffer::block_width) {
-                float colors[std::size_t{3} * N];
-                store_interleaved(light_[Buffer::block_of(x, top - buffer_.top())], colors);
-                for (std::size_t j = 0; j < Buffer::block_height; ++j) {
-                    std::memcpy(rows[j] + 3 * x, colors + j * block_floats, block_floats * sizeof(float));
+        constexpr int row_floats = 3 * Buffer::block_width;
+        for_each_block(pixels, [&](std::size_t block, int column, int row) {
+            float colors[std::size_t{3} * N];
+            store_interleaved(light_[block], colors);
+            const int x = buffer_.left() + column, y = buffer_.top() + row;
+            if (x >= pixels.x0 && y >= pixels.y0 && x + Buffer::block_width <= pixels.x1 &&
+                y + Buffer::block_height <= pixels.y1) {
+                for (int j = 0; j < Buffer::block_height; ++j) {
+                    std::memcpy(image.at(x - crop.x0, y + j - crop.y0), colors + j * row_floats,
+                                row_floats * sizeof(float));
                 }
+                return;
             }
-            for (int y = std::max(top, pixels.y0); y < std::min(top + Buffer::block_height, pixels.y1); ++y) {
-                std::copy_n(rows[y - top] + 3 * x0, 3 * (x1 - x0),
-                            image.at(pixels.x0 - crop.x0, y - crop.y0));
+            const int x0 = std::max(x, pixels.x0), x1 = std::min(x + Buffer::block_width, pixels.x1),
+                      y0 = std::max(y, pixels.y0), y1 = std::min(y + Buffer::block_height, pixels.y1);
+            for (int j = y0; j < y1; ++j) {
+                std::copy_n(colors + (j - y) * row_floats + 3 * (x0 - x), 3 * (x1 - x0),
+                            image.at(x0 - crop.x0, j - crop.y0));
             }
-        }
+        });
     }
     /// Of the first of several empty tiles side by side, all of theirs: long rows are faster to write than
     /// many short ones.
