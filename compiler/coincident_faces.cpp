@@ -1,6 +1,6 @@
 #include "compiler/coincident_faces.h"
 
-#include "compiler/bounds.h"
+#include "compiler/flat_faces.h"
 #include "compiler/ir/objects.h"
 
 #include <fmt/core.h>
@@ -25,11 +25,8 @@ using runtime::Vec3;
 /// Planes this much closer than their distance from the origin are one, whatever rounding placed them.
 constexpr double same_plane = 1e-12;
 
-/// A flat face in world space; the normal points out of the solid that it bounds.
-struct Face {
-    Vec3<double> normal;
-    double offset;
-    Bounds<double> box; ///< of the face itself
+/// The normal points out of the solid that it bounds.
+struct Face : FlatFace {
     const ir::Object* member;
     std::size_t operand;
 };
@@ -81,46 +78,12 @@ private:
     template <class Shape>
     static void add_faces(const Shape& shape, const ir::Object& member, double sign, std::size_t operand,
                           std::vector<Face>& faces) {
-        const auto add = [&](const Vec3<double>& normal, const Vec3<double>& point,
-                             const Bounds<double>& box) {
-            const Vec3<double> n =
-                normalize(transform_normal(inverse(member.world_from_object), normal)) * sign;
-            const Vec3<double> p = transform_point(member.world_from_object, point);
-            faces.push_back(
-                {n, dot(n, p), transform_bounds(member.world_from_object, box), &member, operand});
-        };
-        if constexpr (std::is_same_v<Shape, runtime::Box<double>>) {
-            const auto add_pair = [&](double Vec3<double>::*axis) {
-                Vec3<double> normal{};
-                normal.*axis = 1;
-                Bounds<double> low{shape.min, shape.max}, high = low;
-                low.max.*axis = shape.min.*axis;
-                high.min.*axis = shape.max.*axis;
-                add(normal, shape.max, high);
-                add(-normal, shape.min, low);
-            };
-            add_pair(&Vec3<double>::x);
-            add_pair(&Vec3<double>::y);
-            add_pair(&Vec3<double>::z);
-        } else if constexpr (std::is_same_v<Shape, runtime::Plane<double>>) {
-            const Vec3<double> all{1e300, 1e300, 1e300};
-            add(shape.normal, shape.normal * shape.offset, {});
-            faces.back().box = {-all, all};
-        } else if constexpr (requires { shape.caps; }) {
-            const Vec3<double> axis = normalize(shape.to - shape.from);
-            const auto add_cap = [&](const Vec3<double>& center, const Vec3<double>& normal, double radius) {
-                const Vec3<double> reach = runtime::disc_reach(axis, radius);
-                if (radius > 0) {
-                    add(normal, center, {center - reach, center + reach});
-                }
-            };
-            if constexpr (requires { shape.radius; }) {
-                add_cap(shape.from, -axis, shape.radius);
-                add_cap(shape.to, axis, shape.radius);
-            } else {
-                add_cap(shape.from, -axis, shape.radius_from);
-                add_cap(shape.to, axis, shape.radius_to);
-            }
+        if constexpr (!std::is_same_v<Shape, runtime::Disc<double>>) { // which is no solid
+            for_each_flat_face(shape, member.world_from_object, [&](FlatFace face) {
+                face.normal = face.normal * sign;
+                face.offset *= sign;
+                faces.push_back({face, &member, operand});
+            });
         }
     }
 

@@ -1,8 +1,9 @@
 #include "compiler/scene_checks.h"
 
-#include "compiler/bounds.h"
 #include "compiler/coincident_faces.h"
+#include "compiler/depth_checks.h"
 #include "compiler/ir/objects.h"
+#include "compiler/object_boxes.h"
 #include "compiler/shape_rules.h"
 #include "compiler/values.h"
 #include "lang/schema.h"
@@ -22,104 +23,12 @@ namespace {
 using lang::Diag;
 using runtime::Vec3;
 
-/// What graphics hardware and our raster mode keep of a depth, at the least.
-constexpr double depth_steps = 1 << 24;
 /// Float has 24 bits; below this many steps across an object its shape shows them.
 constexpr double float_steps = 1 << 24;
 constexpr double fewest_steps = 1000;
 
 double largest_coordinate(const Vec3<double>& p) {
     return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-}
-
-using Box = runtime::Bounds<double>;
-
-/// f(box, span, path) for every object, the box in world space and none for an unbounded shape; span() and
-/// path() are made where they are asked for, since of millions few are.
-template <class F>
-void for_each_box(const ir::Scene& scene, F f) {
-    const auto box = [&](const auto& shape, const runtime::Affine<double>& place) {
-        const std::optional<Box> own = object_bounds(shape, scene);
-        return own && place != runtime::Affine<double>{} ? transform_bounds(place, *own) : own;
-    };
-    ir::for_each_piece(
-        scene,
-        [&](const ir::Object& object) {
-            f(
-                box(object.shape, object.world_from_object), [&] { return object.span; },
-                [&] { return object.path; });
-        },
-        [&](const ir::ObjectArray& array) {
-            for (const ir::ObjectColumn& column : array.columns) {
-                std::visit(
-                    [&](const auto& shapes) {
-                        for (std::size_t round = 0; round < array.rounds; ++round) {
-                            f(
-                                box(shapes[round], column.world_from_object),
-                                [&] { return column.span_of(round); }, [&] { return column.path_of(round); });
-                        }
-                    },
-                    column.shapes);
-            }
-        });
-}
-
-/// The largest distance in front of the camera of anything drawn, at most `far`.
-double farthest_depth(const ir::Scene& scene) {
-    double farthest = 0;
-    for_each_box(scene, [&](const std::optional<Box>& bounds, const auto&, const auto&) {
-        if (!bounds) {
-            farthest = scene.camera.far;
-            return;
-        }
-        const Box& box = *bounds;
-        for (int corner = 0; corner < 8; ++corner) {
-            const Vec3<double> p{corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
-                                 corner & 4 ? box.max.z : box.min.z};
-            farthest = std::max(farthest, dot(scene.camera.eye - p, scene.camera.n));
-        }
-    });
-    return std::min(farthest, scene.camera.far);
-}
-
-/// Where the author chose the range of depths; else the camera.
-lang::Span depth_range_span(const lang::Module& module, lang::Span camera) {
-    for (const lang::ThingPtr& thing : module.items) {
-        if (thing->span != camera) {
-            continue;
-        }
-        for (const char* field : {"near", "far"}) {
-            if (const lang::FieldValue* value = thing->find(field)) {
-                return value->value_span;
-            }
-        }
-    }
-    return camera;
-}
-
-/// L4: at the depth d the pseudodepth changes by 2 far near / ((far - near) d^2) per unit of depth, and -1..1
-/// is divided into depth_steps.
-void check_depth(const lang::Module& module, const ir::Scene& scene, lang::Diagnostics& diagnostics) {
-    const double near = scene.camera.near;
-    const double far = scene.camera.far;
-    const auto resolved_at = [&](double d) { return d * d * (far - near) / (far * near * depth_steps); };
-    const auto pixel_at = [&](double d) { return 2 * scene.camera.half_height * d / scene.settings.height; };
-    if (scene.camera.projection != runtime::Projection::perspective || resolved_at(far) <= pixel_at(far)) {
-        return; // at smaller depths it is better still, whatever there is
-    }
-    const double depth = farthest_depth(scene);
-    const double resolved = resolved_at(depth), pixel = pixel_at(depth);
-    if (!(depth > near)) {
-        return;
-    }
-    if (resolved > pixel) {
-        const double enough =
-            depth * (1 - near / far) * scene.settings.height / (2 * scene.camera.half_height * depth_steps);
-        diagnostics.report(Diag::depth_precision, depth_range_span(module, scene.camera_span),
-                           fmt::format("{:.6g}", near), fmt::format("{:.4g}", depth),
-                           fmt::format("{:.2g}", resolved), fmt::format("{:.2g}", pixel),
-                           fmt::format("{:.1g}", 2 * enough));
-    }
 }
 
 /// Why raster mode has no triangles for a shape; empty: it has.

@@ -2,6 +2,7 @@
 
 #include "runtime/math/vec.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -94,6 +95,35 @@ struct RayTerms {
 struct Explanation {
     double column = 0, row = 0; ///< in pixels from the top left corner
     std::vector<RayTerms> rays; ///< in the order in which they are followed
+    Rgb<double> sample{};
+};
+
+/// A triangle or line that a sample of a raster picture lies on.
+struct DrawnTerms {
+    enum class Verdict {
+        seen,    ///< the nearest that lets no light through
+        through, ///< before that, and lets light through
+        farther  ///< behind that, or as far and later in the source
+    };
+    bool is_line = false;
+    std::uint32_t id = 0;            ///< Tag::id of the object; of a line, the segment's number
+    std::uint32_t triangle = 0;      ///< number among those of its object in the source
+    double pseudodepth = 0;          ///< z* at the sample (L4)
+    double w = 0;                    ///< distance along the view axis there, by which was divided (L3)
+    std::array<double, 3> weights{}; ///< of its corners at the sample, in perspective
+    std::array<Vec3<double>, 3>
+        corners{}; ///< in the world; not of planes, which have but one at a finite place
+    bool has_corners = false;
+    bool is_front = true;
+    Verdict verdict = Verdict::farther;
+    /// Where it was lit: at its corners, at the last of them, or at the sample (L10).
+    std::vector<RayTerms> points;
+    Rgb<double> light{}, transmit{}; ///< at the sample
+};
+
+struct RasterExplanation {
+    double column = 0, row = 0;    ///< in pixels from the top left corner
+    std::vector<DrawnTerms> drawn; ///< the nearest first
     Rgb<double> sample{};
 };
 

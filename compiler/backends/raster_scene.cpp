@@ -1,6 +1,7 @@
 #include "compiler/backends/raster_scene.h"
 
 #include "runtime/raster/draw.h"
+#include "runtime/raster/explain.h"
 
 namespace scc::compiler {
 
@@ -10,6 +11,12 @@ template <class R>
 bool draw_aovs(const runtime::DynamicScene<R>& scene, const runtime::RenderRequest& request,
                runtime::AovImage& to) {
     return runtime::draw_raster_aovs(scene, runtime::raster_model(scene, request.settings), request, to);
+}
+
+template <class R>
+runtime::RasterExplanation explain(const runtime::DynamicScene<R>& scene,
+                                   const runtime::RenderRequest& request, int i, int j) {
+    return runtime::explain_raster(scene, runtime::raster_model(scene, request.settings), request, i, j);
 }
 
 } // namespace
@@ -30,6 +37,15 @@ bool raster_aovs_of(const runtime::DynamicScene<float>& scene, const runtime::Re
 bool raster_aovs_of(const runtime::DynamicScene<double>& scene, const runtime::RenderRequest& request,
                     runtime::AovImage& to) {
     return draw_aovs(scene, request, to);
+}
+
+runtime::RasterExplanation raster_explanation_of(const runtime::DynamicScene<float>& scene,
+                                                 const runtime::RenderRequest& request, int i, int j) {
+    return explain(scene, request, i, j);
+}
+runtime::RasterExplanation raster_explanation_of(const runtime::DynamicScene<double>& scene,
+                                                 const runtime::RenderRequest& request, int i, int j) {
+    return explain(scene, request, i, j);
 }
 
 } // namespace scc::compiler

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "runtime/aov.h"
+#include "runtime/explanation.h"
 #include "runtime/raster/model.h"
 #include "runtime/render_request.h"
 #include "runtime/scene.h"
@@ -19,5 +20,11 @@ bool raster_aovs_of(const runtime::DynamicScene<float>& scene, const runtime::Re
                     runtime::AovImage& to);
 bool raster_aovs_of(const runtime::DynamicScene<double>& scene, const runtime::RenderRequest& request,
                     runtime::AovImage& to);
+
+/// As runtime::explain_raster.
+runtime::RasterExplanation raster_explanation_of(const runtime::DynamicScene<float>& scene,
+                                                 const runtime::RenderRequest& request, int i, int j);
+runtime::RasterExplanation raster_explanation_of(const runtime::DynamicScene<double>& scene,
+                                                 const runtime::RenderRequest& request, int i, int j);
 
 } // namespace scc::compiler

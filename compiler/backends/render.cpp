@@ -175,6 +175,23 @@ ExplainedPixel explain(const ir::Scene& scene, const runtime::RenderRequest& req
 }
 
 template <class R>
+ExplainedRaster explain_triangles(const ir::Scene& scene, const runtime::RenderRequest& request,
+                                  const PixelPlace& place) {
+    const runtime::BuildOptions options{.threads = request.threads};
+    const std::shared_ptr<OwnedScene<R>> owned = build<R>(scene, build_meshes(scene, options), options);
+    ExplainedRaster result;
+    runtime::Image image(1, 1);
+    render(*owned, choose_kernels().of(R{}), request, image);
+    result.rendered = {image.pixels[0], image.pixels[1], image.pixels[2]};
+    if (!owned->bands.groups.empty()) {
+        result.band = owned->bands.groups.size() / 2;
+        owned->bands.give(result.band, owned->scene);
+    }
+    result.how = raster_explanation_of(owned->scene, request, place.i, place.j);
+    return result;
+}
+
+template <class R>
 Renderer make_renderer(const ir::Scene& scene, const std::shared_ptr<const Meshes>& meshes,
                        const KernelSet& kernels, const runtime::BuildOptions& options) {
     const std::shared_ptr<OwnedScene<R>> owned = build<R>(scene, meshes, options);
@@ -295,6 +312,15 @@ ExplainedPixel explain_pixel(const ir::Scene& scene, Precision precision,
     request.crop = {place.x, place.y, place.x + 1, place.y + 1};
     return precision == Precision::single ? explain<float>(scene, request, place)
                                           : explain<double>(scene, request, place);
+}
+
+ExplainedRaster explain_raster(const ir::Scene& scene, Precision precision,
+                               const runtime::RenderSettings& settings, const PixelPlace& place) {
+    runtime::RenderRequest request;
+    request.settings = settings;
+    request.crop = {place.x, place.y, place.x + 1, place.y + 1};
+    return precision == Precision::single ? explain_triangles<float>(scene, request, place)
+                                          : explain_triangles<double>(scene, request, place);
 }
 
 } // namespace scc::compiler

@@ -44,4 +44,12 @@ struct ExplainedPixel {
 ExplainedPixel explain_pixel(const ir::Scene& scene, Precision precision,
                              const runtime::RenderSettings& settings, const PixelPlace& place);
 
+struct ExplainedRaster {
+    runtime::RasterExplanation how; ///< of a scene with spectra: at the wavelengths of `band`
+    std::size_t band = 0;
+    runtime::Rgb<float> rendered; ///< as the kernels draw it
+};
+ExplainedRaster explain_raster(const ir::Scene& scene, Precision precision,
+                               const runtime::RenderSettings& settings, const PixelPlace& place);
+
 } // namespace scc::compiler

@@ -73,7 +73,9 @@ int explain(const ExplainOptions& options) {
             text += (text.empty() ? "" : "\n") + explain_needs(loaded, options);
         }
         if (options.pixel) {
-            text += (text.empty() ? "" : "\n") + explain_pixel(loaded, options);
+            const bool is_raster = loaded.scene.settings.method == runtime::Method::raster;
+            text += (text.empty() ? "" : "\n") +
+                    (is_raster ? explain_raster(loaded, options) : explain_rays(loaded, options));
         }
     }
     write_result("-", text);
@@ -93,7 +95,7 @@ void add_explain(CLI::App& app, Run& selected) {
                 options->pixel = place(text, "--pixel", "X,Y, two whole numbers from the top left corner");
             },
             "how this pixel came about: its ray, all that the ray passes, the light, mirrored and refracted "
-            "rays, and the sum")
+            "rays, and the sum; in raster mode the triangles and lines on it, their depths and their light")
         ->type_name("X,Y");
     command
         ->add_option_function<std::string>(

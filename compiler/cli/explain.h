@@ -26,9 +26,11 @@ struct ExplainOptions {
 /// L1 to L4 and L6: of a scene that the passes have not run over.
 std::string explain_matrices(const Loaded& loaded, const ExplainOptions& options);
 std::string explain_needs(const Loaded& loaded, const ExplainOptions& options);
-/// L11 to L15 for one pixel. Throws host::UsageError for a pixel or sample that the picture does not have.
-std::string explain_pixel(const Loaded& loaded, const ExplainOptions& options);
-/// The same as JSON; numbers that are not finite are null.
+/// One pixel of a ray picture (L11 to L15) or of a raster picture (L3 to L10). Both throw host::UsageError
+/// for a pixel or sample that the picture does not have.
+std::string explain_rays(const Loaded& loaded, const ExplainOptions& options);
+std::string explain_raster(const Loaded& loaded, const ExplainOptions& options);
+/// The same of rays as JSON; numbers that are not finite are null.
 std::string pixel_json(const Loaded& loaded, const runtime::RenderSettings& settings,
                        const compiler::PixelPlace& place, const compiler::PrecisionChoice& precision,
                        const compiler::ExplainedPixel& explained);

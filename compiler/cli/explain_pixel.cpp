@@ -1,6 +1,7 @@
 #include "compiler/backends/render.h"
 #include "compiler/cli/explain.h"
 #include "compiler/cli/explain_names.h"
+#include "compiler/cli/explain_terms.h"
 #include "lang/spectrum.h"
 #include "runtime/host/image_file.h"
 #include "runtime/host/srgb.h"
@@ -29,24 +30,12 @@ using runtime::Vec3;
 
 constexpr std::size_t most_candidates = 24; ///< of a ray; the rest is counted
 
-std::string text(double v) {
-    return fmt::format("{:.6g}", v);
+std::string bits_text(const Rgb<float>& c) {
+    return fmt::format("({}, {}, {})", c.r, c.g, c.b);
 }
 /// As a further term of a sum.
 std::string term(double v) {
     return fmt::format("{} {:.6g}", v < 0 ? "-" : "+", std::abs(v));
-}
-std::string text(const Vec3<double>& v) {
-    return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z);
-}
-std::string text(const Rgb<double>& c) {
-    return fmt::format("({:.6g}, {:.6g}, {:.6g})", c.r, c.g, c.b);
-}
-std::string bits_text(const Rgb<float>& c) {
-    return fmt::format("({}, {}, {})", c.r, c.g, c.b);
-}
-bool is_black(const Rgb<double>& c) {
-    return c == Rgb<double>{};
 }
 bool same_bits(float a, float b) {
     return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
@@ -56,29 +45,20 @@ bool same_bits(const Rgb<float>& a, const Rgb<float>& b) {
 }
 
 /// Writes the rays as they follow from each other, each below the one that it comes from.
-class RayWriter {
+class RayWriter : TermsWriter {
 public:
     RayWriter(const compiler::ir::Scene& scene, const runtime::RenderSettings& settings, Names names,
               const compiler::ExplainedPixel& explained)
-        : scene_(scene), settings_(settings), names_(std::move(names)), explained_(explained) {}
+        : TermsWriter(std::move(names), ambient_of(scene, explained.band), settings.shadows), scene_(scene),
+          settings_(settings), explained_(explained) {}
 
     std::string run() {
         write(0, 0);
-        return std::move(out_);
+        return take();
     }
 
 private:
-    Rgb<double> ambient() const {
-        return scene_.bands.empty() ? scene_.ambient : scene_.bands[explained_.band].ambient;
-    }
-    Rgb<double> background() const {
-        return scene_.bands.empty() ? scene_.background : scene_.bands[explained_.band].background;
-    }
-
-    template <class... T>
-    void line(std::size_t depth, fmt::format_string<T...> format, T&&... values) {
-        out_ += std::string(2 * depth, ' ') + fmt::format(format, std::forward<T>(values)...) + "\n";
-    }
+    Rgb<double> background() const { return background_of(scene_, explained_.band); }
 
     void write(std::size_t index, std::size_t depth) {
         const RayTerms& ray = explained_.how.rays[index];
@@ -111,7 +91,7 @@ private:
                 line(depth + 1, "... and {} more", ray.candidates.size() - most_candidates);
                 break;
             }
-            line(depth + 1, "t = {:<12} {}: {} it at {}{}; {}", text(c.t), names_.surface(c.id, c.member),
+            line(depth + 1, "t = {:<12} {}: {} it at {}{}; {}", text(c.t), names().surface(c.id, c.member),
                  c.enters ? "enters" : "leaves", text(c.point),
                  c.residual ? fmt::format(", {} = {:.2g}", c.residual->terms, c.residual->value) : "",
                  verdict(c, ray));
@@ -132,8 +112,8 @@ private:
     }
 
     void encounter(const RayTerms& ray, std::size_t depth) {
-        line(depth, "meets {} at t = {}, on its {} side, of material {}", names_.surface(ray.id, ray.member),
-             text(ray.t), ray.is_front ? "front" : "back", names_.material(ray.material));
+        line(depth, "meets {} at t = {}, on its {} side, of material {}", names().surface(ray.id, ray.member),
+             text(ray.t), ray.is_front ? "front" : "back", names().material(ray.material));
         line(depth + 1, "point {}, exact within +- {}", text(ray.point), text(ray.error));
         line(depth + 1, "m = {}, the normal towards the viewer{}", text(ray.shading_normal),
              length(cross(ray.normal, ray.shading_normal)) > 1e-5
@@ -141,66 +121,6 @@ private:
                                text(ray.normal))
                  : "");
         line(depth + 1, "v = {}, towards the viewer", text(-normalize(ray.dir)));
-    }
-
-    void light(const RayTerms& ray, std::size_t depth) {
-        line(depth, "light from there (L7): R = {}", text(ray.light));
-        line(depth + 1, "ambient: Ia ra = {} {} = {}", text(ambient()), text(ray.ambient),
-             text(ambient() * ray.ambient));
-        if (!is_black(ray.emission)) {
-            line(depth + 1, "emission: {}", text(ray.emission));
-        }
-        for (const LightTerms& terms : ray.lights) {
-            write(terms, ray, depth + 1);
-        }
-    }
-
-    void write(const LightTerms& terms, const RayTerms& ray, std::size_t depth) {
-        line(depth, "{}: s = {}, {}s.m = {}", names_.light(terms), text(terms.to_light),
-             std::isinf(terms.distance) ? "" : fmt::format("d = {}, ", text(terms.distance)),
-             text(terms.cosine));
-        if (!(terms.cosine > 0)) {
-            line(depth + 1, "s.m is not greater than 0: it shines on the other side, and adds nothing");
-            return;
-        }
-        if (!terms.is_in_cone) {
-            line(depth + 1, "the point lies outside its cone: it adds nothing");
-            return;
-        }
-        if (!settings_.shadows) {
-            line(depth + 1, "shadows are off");
-        }
-        for (const Feeler& feeler : terms.feelers) {
-            write(feeler, depth + 1);
-        }
-        if (!terms.reaches) {
-            return;
-        }
-        line(depth + 1, "diffuse: Id rd (s.m) = {}, with rd = {}", text(terms.diffuse), text(ray.diffuse));
-        if (!is_black(ray.specular)) {
-            line(depth + 1, "specular: Is rs ((h.m)/|h|)^a = {}, with rs = {}, a = {}, the power {}",
-                 text(terms.specular), text(ray.specular), text(ray.shininess), text(terms.highlight));
-        }
-        if (terms.attenuation != 1) {
-            line(depth + 1, "attenuation: kc + kl d + kq d^2 = {}, by which both are divided",
-                 text(terms.attenuation));
-        }
-        if (terms.kind == LightTerms::Kind::spot) {
-            line(depth + 1, "cone: multiplied by {}", text(terms.cone_share));
-        }
-        line(depth + 1, "adds {}", text(terms.adds));
-    }
-
-    void write(const Feeler& feeler, std::size_t depth) {
-        if (!feeler.is_blocked) {
-            line(depth, "shadow feeler (L14): nothing before the light");
-        } else if (!feeler.filter || is_black(*feeler.filter)) {
-            line(depth, "shadow feeler (L14): {} is in the way at t = {}: no diffuse, no specular",
-                 names_.object(feeler.id), text(feeler.t));
-        } else {
-            line(depth, "shadow feeler (L14): {} is in the way at t = {} and leaves {} of the light",
-                 names_.object(feeler.id), text(feeler.t), text(*feeler.filter));
-        }
     }
 
     void goes_on(const RayTerms& ray, std::size_t index, std::size_t depth) {
@@ -240,36 +160,8 @@ private:
 
     const compiler::ir::Scene& scene_;
     const runtime::RenderSettings& settings_;
-    Names names_;
     const compiler::ExplainedPixel& explained_;
-    std::string out_;
 };
-
-compiler::PrecisionChoice choose_precision(const compiler::ir::Scene& scene,
-                                           const runtime::RenderRequest& request,
-                                           const ExplainOptions& options) {
-    if (options.precision) {
-        return {*options.precision, "asked for"};
-    }
-    if (!host::keeps_8_bits(scene.file, options.render.bits)) {
-        return {compiler::Precision::full, "the scene names no `file` that keeps but 8 bits of each value"};
-    }
-    return compiler::choose_precision_for_8_bits(scene, request.settings, {.threads = request.threads});
-}
-
-compiler::PixelPlace place_of_sample(const runtime::RenderSettings& settings, const ExplainOptions& options) {
-    const auto [x, y] = *options.pixel;
-    const int n = samples_per_axis(settings);
-    if (x >= settings.width || y >= settings.height) {
-        throw host::UsageError(fmt::format("there is no pixel {},{}; the picture has {} x {} pixels", x, y,
-                                           settings.width, settings.height));
-    }
-    const auto [i, j] = options.sample.value_or(std::pair{n / 2, n / 2});
-    if (i >= n || j >= n) {
-        throw host::UsageError(fmt::format("there is no sample {},{}; each pixel has {} x {}", i, j, n, n));
-    }
-    return {x, y, i, j};
-}
 
 /// The rule of runtime/camera.h with its numbers.
 std::string panorama_text(const runtime::Camera<double>& c, double across, double up) {
@@ -353,10 +245,7 @@ std::string sum_text(const compiler::ir::Scene& scene, const runtime::RenderSett
 
 } // namespace
 
-std::string explain_pixel(const Loaded& loaded, const ExplainOptions& options) {
-    if (loaded.scene.settings.method == runtime::Method::raster) {
-        throw host::UsageError("--pixel follows rays, which a raster picture has not; `--mode ray` does");
-    }
+std::string explain_rays(const Loaded& loaded, const ExplainOptions& options) {
     const compiler::ir::Scene& scene = loaded.scene;
     runtime::RenderRequest request = make_request(options.render, scene.settings);
     const bool is_plain = is_plain_grid(request.settings);
@@ -369,21 +258,9 @@ std::string explain_pixel(const Loaded& loaded, const ExplainOptions& options) {
     if (options.json) {
         return pixel_json(loaded, settings, place, precision, explained);
     }
-    const int n = samples_per_axis(settings);
-    std::string out = fmt::format("pixel {},{} of scene `{}`, {} x {} pixels", place.x, place.y, scene.name,
-                                  settings.width, settings.height);
-    out += n == 1
-               ? fmt::format(", one sample at its {}\n",
-                             settings.point == runtime::PixelPoint::corner ? "lower left corner" : "centre")
-               : fmt::format("; sample {},{} of {} x {}, from the top left corner\n", place.i, place.j, n, n);
+    std::string out = heading(scene, settings, place, precision, explained.band);
     if (!is_plain) {
         out += "as by a plain grid with the box filter, which is not what the scene asks for\n";
-    }
-    out += fmt::format("in {}: {}\n", name_of(precision.precision), precision.reason);
-    if (!scene.bands.empty()) {
-        const auto wavelength = [&](std::size_t k) { return lang::wavelength(3 * explained.band + k); };
-        out += fmt::format("colours are those of {}, {} and {} nm, the middle ones of {} times three\n",
-                           wavelength(0), wavelength(1), wavelength(2), scene.bands.size());
     }
     out += "\n" + camera_text(scene, settings, explained.how) + "\n";
     out += RayWriter(scene, settings, Names(loaded), explained).run();

@@ -1,4 +1,5 @@
 #include "compiler/cli/explain.h"
+#include "compiler/cli/explain_json.h"
 #include "compiler/cli/explain_names.h"
 
 #include <nlohmann/json.hpp>
@@ -10,19 +11,9 @@ namespace scc::cli {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
 using runtime::Candidate;
-using runtime::Feeler;
 using runtime::LightTerms;
 using runtime::RayTerms;
-
-Json json_of(const runtime::Vec3<double>& v) {
-    return Json::array({v.x, v.y, v.z});
-}
-template <class R>
-Json json_of(const runtime::Rgb<R>& c) {
-    return Json::array({c.r, c.g, c.b});
-}
 
 const char* word(Candidate::Verdict verdict) {
     switch (verdict) {
@@ -92,32 +83,13 @@ private:
                   {"transmitted", json_of(ray.transmitted)},
                   {"goes_through", ray.goes_through}};
         for (const LightTerms& light : ray.lights) {
-            json["lights"].push_back(of(light));
+            json["lights"].push_back(json_of(names_, light));
         }
         if (ray.refraction) {
             json["refraction"] = {{"from", ray.refraction->from},
                                   {"to", ray.refraction->to},
                                   {"reflectance", ray.refraction->reflectance},
                                   {"total", ray.refraction->is_total}};
-        }
-        return json;
-    }
-
-    Json of(const LightTerms& terms) const {
-        Json json{{"light", names_.light(terms)},      {"to_light", json_of(terms.to_light)},
-                  {"distance", terms.distance},        {"cosine", terms.cosine},
-                  {"in_cone", terms.is_in_cone},       {"reaches", terms.reaches},
-                  {"diffuse", json_of(terms.diffuse)}, {"specular", json_of(terms.specular)},
-                  {"highlight", terms.highlight},      {"attenuation", terms.attenuation},
-                  {"cone_share", terms.cone_share},    {"adds", json_of(terms.adds)},
-                  {"feelers", Json::array()}};
-        for (const Feeler& feeler : terms.feelers) {
-            json["feelers"].push_back(
-                feeler.is_blocked
-                    ? Json{{"blocked_by", names_.object(feeler.id)},
-                           {"t", feeler.t},
-                           {"leaves", feeler.filter ? json_of(*feeler.filter) : Json::array({0, 0, 0})}}
-                    : Json{{"blocked_by", nullptr}});
         }
         return json;
     }

@@ -100,9 +100,8 @@ struct Bin {
         tiles.for_each_tile(intersection(square, tiles.box()), [&](std::size_t tile) {
             const std::int32_t x = column - tiles.left_of(static_cast<int>(tile)),
                                y = row - tiles.top_of(static_cast<int>(tile));
-            const std::uint32_t inside =
-                covered & samples_in_tile(x, tiles.tile_samples()) * 0x1111U &
-                rows_in_tile(y, tiles.tile_samples());
+            const std::uint32_t inside = covered & samples_in_tile(x, tiles.tile_samples()) * 0x1111U &
+                                         rows_in_tile(y, tiles.tile_samples());
             if (inside != 0) {
                 t.column = static_cast<std::int16_t>(x);
                 t.row = static_cast<std::int16_t>(y);

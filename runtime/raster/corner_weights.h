@@ -22,6 +22,7 @@ struct Linear {
     friend Linear operator+(const Linear& a, const Linear& b) { return {a.at + b.at, a.x + b.x, a.y + b.y}; }
     friend Linear operator*(const Linear& a, const L& s) { return {a.at * s, a.x * s, a.y * s}; }
 };
+using runtime::choose; // of numbers, which the next one would hide
 template <class L>
 Linear<L> choose(const MaskOf<L>& mask, const Linear<L>& a, const Linear<L>& b) {
     return {choose(mask, a.at, b.at), choose(mask, a.x, b.x), choose(mask, a.y, b.y)};

@@ -82,7 +82,8 @@ std::array<Vec3<L>, 3> corners_in_mesh(const MeshData& mesh, const std::vector<s
 /// any finite numbers.
 template <class L, class Meshes>
 CornerPacks<L> world_triangles(const RasterModel<RealOf<L>>& model, const Meshes& meshes,
-                               const RasterSurface<RealOf<L>>& surface, std::uint32_t i, std::uint32_t count) {
+                               const RasterSurface<RealOf<L>>& surface, std::uint32_t i,
+                               std::uint32_t count) {
     using R = RealOf<L>;
     CornerPacks<L> result;
     if (surface.is_mesh) {

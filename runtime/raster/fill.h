@@ -50,8 +50,7 @@ public:
                static_cast<std::size_t>(column) / block_width;
     }
     static std::size_t sample_of(int column, int row) {
-        return block_of(column, row) * N +
-               static_cast<std::size_t>(row) % block_height * block_width +
+        return block_of(column, row) * N + static_cast<std::size_t>(row) % block_height * block_width +
                static_cast<std::size_t>(column) % block_width;
     }
     const L& depths(std::size_t block) const { return z_[block]; }
@@ -85,18 +84,10 @@ public:
     }
     template <class Earlier>
     void fill(const SmallTriangle<R>& t, std::uint32_t entry, Earlier&& earlier) {
-        R* const depths = reinterpret_cast<R*>(z_.data());
-        auto* const entries = reinterpret_cast<std::uint32_t*>(entry_.data());
-        for (unsigned left = t.covered; left != 0; left &= left - 1) {
-            const int k = __builtin_ctz(left);
-            const int column = k % SmallTriangle<R>::width, row = k / SmallTriangle<R>::width;
-            const R z = (t.z + t.z_y * static_cast<R>(row)) + t.z_x * static_cast<R>(column);
-            const std::size_t i = sample_of(t.column + column, t.row + row);
-            if (z < depths[i] || (z == depths[i] && entries[i] != no_entry && earlier(entry, entries[i]))) {
-                depths[i] = z;
-                entries[i] = entry;
-            }
-        }
+        visit(t, entry, earlier, [this, entry](std::uint32_t sample, const R& z) {
+            reinterpret_cast<R*>(z_.data())[sample] = z;
+            reinterpret_cast<std::uint32_t*>(entry_.data())[sample] = entry;
+        });
     }
     /// The same without showing it: f(sample, z) for each sample.
     template <class Earlier, class F>
@@ -108,6 +99,20 @@ public:
                 f(static_cast<std::uint32_t>(block * N) + static_cast<std::uint32_t>(k), lane(z, k));
             }
         });
+    }
+    template <class Earlier, class F>
+    void visit(const SmallTriangle<R>& t, std::uint32_t entry, Earlier&& earlier, F&& f) const {
+        const R* const depths = reinterpret_cast<const R*>(z_.data());
+        const auto* const entries = reinterpret_cast<const std::uint32_t*>(entry_.data());
+        for (unsigned left = t.covered; left != 0; left &= left - 1) {
+            const int k = __builtin_ctz(left);
+            const int column = k % SmallTriangle<R>::width, row = k / SmallTriangle<R>::width;
+            const R z = (t.z + t.z_y * static_cast<R>(row)) + t.z_x * static_cast<R>(column);
+            const std::size_t i = sample_of(t.column + column, t.row + row);
+            if (z < depths[i] || (z == depths[i] && entries[i] != no_entry && earlier(entry, entries[i]))) {
+                f(static_cast<std::uint32_t>(i), z);
+            }
+        }
     }
     /// A single sample, in the picture; nothing outside of the tile.
     void put(std::int32_t column, std::int32_t row, R z, std::uint32_t entry) {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "runtime/math/vec.h"
 #include "runtime/math/pack.h"
+#include "runtime/math/vec.h"
 
 #include <cstddef>
 #include <cstring>
@@ -19,10 +19,12 @@ void store_third(const runtime::detail::VectorType<float, N>& r,
                  const runtime::detail::VectorType<float, N>& b, float* to, std::index_sequence<i...>) {
     constexpr auto lane = [](std::size_t k) { return static_cast<int>((j * N + k) / 3); };
     constexpr auto channel = [](std::size_t k) { return static_cast<int>((j * N + k) % 3); };
-    const auto red_green =
-        __builtin_shufflevector(r, g, (channel(i) == 1 ? N + lane(i) : channel(i) == 0 ? lane(i) : 0)...);
-    const auto all = __builtin_shufflevector(red_green, b,
-                                             (channel(i) == 2 ? N + lane(i) : static_cast<int>(i))...);
+    const auto red_green = __builtin_shufflevector(r, g,
+                                                   (channel(i) == 1   ? N + lane(i)
+                                                    : channel(i) == 0 ? lane(i)
+                                                                      : 0)...);
+    const auto all =
+        __builtin_shufflevector(red_green, b, (channel(i) == 2 ? N + lane(i) : static_cast<int>(i))...);
     std::memcpy(to + j * N, &all, sizeof all);
 }
 

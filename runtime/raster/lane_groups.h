@@ -8,8 +8,8 @@
 
 namespace scc::runtime::raster {
 
-/// A pack's lanes by what they have in common. Most packs of a tile's samples show few triangles, so that what
-/// is read of each triangle once is read far less often than lane by lane. Every lane is in one group.
+/// A pack's lanes by what they have in common. Most packs of a tile's samples show few triangles, so that
+/// what is read of each triangle once is read far less often than lane by lane. Every lane is in one group.
 template <class L>
 class LaneGroups {
 public:

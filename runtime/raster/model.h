@@ -41,9 +41,9 @@ struct RasterModel {
     std::vector<RasterTriangle> triangles;
     /// Of each mesh: ShapeHit::part of its triangles, in the order in which they lie in memory.
     std::vector<std::vector<std::uint32_t>> mesh_parts;
-    std::vector<LineSegment<R>> segments;               ///< edges of polygons, and polylines
-    std::uint32_t triangle_count = 0;                   ///< of all surfaces
-    std::vector<std::uint32_t> left_out; ///< ids of what has no mesh: unbounded quadrics and solids of them
+    std::vector<LineSegment<R>> segments; ///< edges of polygons, and polylines
+    std::uint32_t triangle_count = 0;     ///< of all surfaces
+    std::vector<std::uint32_t> left_out;  ///< ids of what has no mesh: unbounded quadrics and solids of them
 };
 
 /// So many triangles a model can have; the rest of a number's bits has other uses.

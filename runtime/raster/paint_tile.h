@@ -106,6 +106,55 @@ public:
         }
     }
 
+    /// What lies on a sample, seen or not: a triangle by its id, or a line by its segment.
+    struct Covering {
+        std::uint32_t id;
+        R z;
+        bool is_line, is_seen;
+    };
+    std::vector<Covering> covering(int tile, int column, int row) const {
+        std::vector<Covering> found;
+        if (entries_.empty()) {
+            return found;
+        }
+        const auto index = static_cast<std::size_t>(tile);
+        const std::uint32_t sample = static_cast<std::uint32_t>(Buffer::sample_of(column, row)),
+                            seen = buffer_.entry(sample);
+        const auto add = [&](std::uint32_t id, const R& z, bool is_line) {
+            found.push_back(
+                {id, z, is_line,
+                 seen != no_entry && entries_[seen].id == id && (seen >= first_line_) == is_line});
+        };
+        Buffer empty;
+        empty.clear(buffer_.left(), buffer_.top(), std::numeric_limits<R>::max());
+        const auto visit = [&](const auto& t) {
+            const auto never = [](std::uint32_t, std::uint32_t) { return false; };
+            empty.visit(t, 0, never, [&](std::uint32_t at, const R& z) {
+                if (at == sample) {
+                    add(t.id, z, false);
+                }
+            });
+        };
+        for (const Bin<R>& bin : bins_) {
+            for (const SmallTriangle<R>& t : bin.small_of[index]) {
+                visit(t);
+            }
+            for (const std::uint32_t i : bin.triangles_of[index]) {
+                visit(bin.triangles[i]);
+            }
+            for (const std::uint32_t i : bin.lines_of[index]) {
+                const SampleBox box{buffer_.left() + column, buffer_.top() + row, buffer_.left() + column + 1,
+                                    buffer_.top() + row + 1};
+                draw_line(bin.lines[i], box, [&](std::int32_t x, std::int32_t y, const R& z) {
+                    if (x == box.x0 && y == box.y0) {
+                        add(bin.lines[i].segment, z, true);
+                    }
+                });
+            }
+        }
+        return found;
+    }
+
     /// What its pixels' centres show beside light; see draw_raster_aovs.
     void store_aovs(int tile, const Crop& crop, AovImage& to) {
         const Crop pixels = tiles_.pixels_of(tile);

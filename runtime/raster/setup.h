@@ -240,9 +240,8 @@ private:
         unsigned flat = narrow & grid_bits_of<L>(none), counter = narrow & grid_bits_of<L>(swapped);
         for (unsigned wide = among & ~narrow; wide != 0; wide &= wide - 1) {
             const int k = __builtin_ctz(wide);
-            const std::int64_t exactly =
-                std::int64_t{t.x[1][k] - t.x[0][k]} * (t.y[2][k] - t.y[0][k]) -
-                std::int64_t{t.x[2][k] - t.x[0][k]} * (t.y[1][k] - t.y[0][k]);
+            const std::int64_t exactly = std::int64_t{t.x[1][k] - t.x[0][k]} * (t.y[2][k] - t.y[0][k]) -
+                                         std::int64_t{t.x[2][k] - t.x[0][k]} * (t.y[1][k] - t.y[0][k]);
             flat |= exactly == 0 ? 1U << k : 0U;
             counter |= exactly < 0 ? 1U << k : 0U;
             swapped[k] = exactly < 0 ? -1 : 0;
@@ -353,8 +352,7 @@ private:
         }
     }
     static std::uint32_t id_of(const Flags& flags, std::uint32_t number, unsigned back, int k) {
-        return (number + static_cast<std::uint32_t>(k)) |
-               ((back >> k & 1U) != 0 ? flags.back : flags.front);
+        return (number + static_cast<std::uint32_t>(k)) | ((back >> k & 1U) != 0 ? flags.back : flags.front);
     }
 
     void clip(const std::array<ClipPoint<R>, 3>& corners, const Flags& flags, std::uint32_t number,

@@ -162,8 +162,7 @@ private:
     }
     template <class Get>
     IndexOf<L> gather_index(const Groups& groups, Get&& get) const {
-        return groups.template gather<IndexOf<L>>(
-            [&](std::uint32_t number) { return get(shown_[number]); });
+        return groups.template gather<IndexOf<L>>([&](std::uint32_t number) { return get(shown_[number]); });
     }
     /// The value of the Linear at `at`.
     L value(const Groups& groups, std::size_t at, const L& column, const L& row) const {
@@ -265,7 +264,7 @@ private:
         for (std::size_t k = 0; k < count; ++k) {
             const int i = static_cast<int>(k);
             pack[k]->geometric = {lane(corners.geometric.x, i), lane(corners.geometric.y, i),
-                                            lane(corners.geometric.z, i)};
+                                  lane(corners.geometric.z, i)};
         }
     }
     template <class SumOf>

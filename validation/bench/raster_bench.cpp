@@ -282,11 +282,13 @@ int main(int argc, char** argv) {
     CLI::App app{"The raster pipeline against llvmpipe"};
     Measurement measurement;
     std::string meshes = SCC_MESH_DIR, only;
-    app.add_option("--threads", measurement.threads, "Of both, on as many processors")->check(CLI::Range(1, 256));
+    app.add_option("--threads", measurement.threads, "Of both, on as many processors")
+        ->check(CLI::Range(1, 256));
     app.add_option("--repeat", measurement.repeat, "Measured rounds")->check(CLI::Range(1, 1000));
     app.add_option("--meshes", meshes, "Folder of the meshes");
     app.add_option("--only", only, "One of the cases, by its name");
-    app.add_option("--profile", measurement.frames, "Draw so many frames alone and measure nothing, for a profiler");
+    app.add_option("--profile", measurement.frames,
+                   "Draw so many frames alone and measure nothing, for a profiler");
     CLI11_PARSE(app, argc, argv);
     limit_to(measurement.threads);
     struct Case {
