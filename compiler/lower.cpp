@@ -90,6 +90,10 @@ public:
 
     void add_all(const std::vector<lang::ThingPtr>& siblings, const std::string& parent_path,
                  const Affine<double>& world_from_parent, const Thing* inherited_material);
+    /// Whether a line that is not lit has a spectrum.
+    bool lines_have_spectra() const;
+    /// Gives such lines their colours in these, too.
+    void add_line_bands(const std::vector<Rendition>& bands);
 
 private:
     void add(const Thing& thing, const std::string& path, const Affine<double>& world_from_parent,
@@ -164,6 +168,7 @@ private:
     std::optional<host::Cache> cache_;              ///< once a mesh asks for it
     std::set<std::string> paths_;
     std::vector<lang::ThingPtr> made_materials_; ///< of colours of lines
+    std::vector<lang::Value> line_colors_;       ///< of the scene's polylines
     std::vector<lang::ThingPtr> taken_apart_;    ///< things of rows; the materials refer to them
     std::size_t count_ = 0;                      ///< of objects, those in arrays too
     bool paths_may_meet_;
@@ -759,14 +764,27 @@ const Thing* ObjectLowering::line_material(const Thing& thing, const Thing* inhe
     return made_materials_.back().get();
 }
 
+bool ObjectLowering::lines_have_spectra() const {
+    return std::any_of(line_colors_.begin(), line_colors_.end(), lang::has_spectra);
+}
+
+void ObjectLowering::add_line_bands(const std::vector<Rendition>& bands) {
+    for (std::size_t i = 0; i < line_colors_.size(); ++i) {
+        for (const Rendition& band : bands) {
+            scene_.polylines[i].bands.push_back(band.rendered(line_colors_[i], ColorRole::light));
+        }
+    }
+}
+
 /// A line without a radius. It is not lit.
 void ObjectLowering::add_thin_line(const Thing& thing, std::vector<Vec3<double>> points,
                                    const Affine<double>& world_from_parent) {
     ir::Polyline line{
         .points = std::move(points), .width = to_number(*thing.get("width")), .span = thing.span};
-    if (const lang::FieldValue* color = thing.find("color"); color != nullptr) {
-        line.color = materials_.shown(color->value);
-    }
+    const lang::FieldValue* color = thing.find("color");
+    const lang::Value white{lang::ColorValue{{lang::Scalar{1}, lang::Scalar{1}, lang::Scalar{1}}}};
+    line_colors_.push_back(color != nullptr ? color->value : white);
+    line.color = materials_.shown(line_colors_.back());
     for (Vec3<double>& point : line.points) {
         point = transform_point(world_from_parent, point);
     }
@@ -964,14 +982,11 @@ ir::Scene lower(const lang::Module& module, const LowerOptions& options, lang::D
     objects.add_all(module.items, "", {}, nullptr);
     lower_camera(module, options, scene, diagnostics);
     lower_lights(module, rec709, scene, diagnostics);
-    if (materials.has_spectra() || view_has_spectra(module)) {
+    if (materials.has_spectra() || objects.lines_have_spectra() || view_has_spectra(module)) {
         const std::vector<Rendition> bands = Rendition::bands(illuminant);
         materials.add_bands(bands);
         add_view_bands(module, bands, scene);
-        for (const ir::Polyline& line : scene.polylines) {
-            diagnostics.report(Diag::unsupported_setting, line.span,
-                               "a polyline without a `radius` in a scene with spectra");
-        }
+        objects.add_line_bands(bands);
     }
     if (scene.settings.method == runtime::Method::raster) {
         leave_surfaces_alone(scene, diagnostics);

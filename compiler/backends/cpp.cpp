@@ -460,7 +460,7 @@ void Emitter<R>::scene_type() {
         read_member("function_constants");
     }
     if (scene_.traits.lines) {
-        table("LineSegment<R>", "line_segments", line_segments_of<R>(scene_));
+        colored_table("LineSegment<R>", "line_segments", line_segments_of<R>(scene_));
     }
     meshes();
     images();

@@ -53,6 +53,7 @@ struct Bands {
     std::vector<runtime::DirectionalLight<R>> directional_lights;
     std::vector<runtime::SpotLight<R>> spot_lights;
     std::vector<runtime::RectangleLight<R>> rectangle_lights;
+    std::vector<runtime::LineSegment<R>> line_segments;
 
     void give(std::size_t group, runtime::DynamicScene<R>& scene) const {
         const auto give_rows = [&]<class T>(const std::vector<T>& all, std::vector<T>& rows) {
@@ -64,6 +65,7 @@ struct Bands {
         give_rows(directional_lights, scene.directional_lights);
         give_rows(spot_lights, scene.spot_lights);
         give_rows(rectangle_lights, scene.rectangle_lights);
+        give_rows(line_segments, scene.line_segments);
         scene.ambient = groups[group].ambient;
         scene.background = groups[group].background;
     }
@@ -93,16 +95,17 @@ std::shared_ptr<OwnedScene<R>> build(const ir::Scene& scene, std::shared_ptr<con
     out.directional_lights = lights_of<runtime::DirectionalLight, R>(scene);
     out.spot_lights = lights_of<runtime::SpotLight, R>(scene);
     out.rectangle_lights = lights_of<runtime::RectangleLight, R>(scene);
+    out.line_segments = line_segments_of<R>(scene);
     if (!scene.bands.empty()) {
         owned->bands = {bands_of<R>(scene),          std::move(out.materials),
                         std::move(out.point_lights), std::move(out.directional_lights),
-                        std::move(out.spot_lights),  std::move(out.rectangle_lights)};
+                        std::move(out.spot_lights),  std::move(out.rectangle_lights),
+                        std::move(out.line_segments)};
         owned->bands.give(0, out);
     }
     for (const ir::Function& function : scene.functions) {
         out.functions.push_back(program_of<R>(function));
     }
-    out.line_segments = line_segments_of<R>(scene);
     out.reads_uv = scene.traits.uv;
     out.camera = convert(scene.camera, R{});
     out.ambient = convert(scene.ambient, R{});
@@ -115,11 +118,10 @@ template <class R>
 runtime::RenderResult render(OwnedScene<R>& owned, const Kernels<R>& kernels,
                              const runtime::RenderRequest& request, runtime::Image& image) {
     const bool is_raster = request.settings.method == runtime::Method::raster;
-    const auto model = is_raster ? raster_model_of(owned.scene, request.settings) : runtime::RasterModel<R>{};
     const auto draw = [&](const runtime::RenderRequest& one, runtime::Image& to) {
         runtime::RenderResult result;
-        if (is_raster) {
-            kernels.raster(owned.scene, model, one, to, result);
+        if (is_raster) { // the model of each band has lines in its own colours
+            kernels.raster(owned.scene, raster_model_of(owned.scene, one.settings), one, to, result);
         } else {
             kernels.ray(owned.scene, one, to, result);
         }

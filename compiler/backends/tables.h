@@ -102,10 +102,15 @@ runtime::Camera<R> convert(const runtime::Camera<double>& c, R real) {
 template <class R>
 std::vector<runtime::LineSegment<R>> line_segments_of(const ir::Scene& scene) {
     std::vector<runtime::LineSegment<R>> segments;
-    for (const ir::Polyline& line : scene.polylines) {
+    const auto add = [&](const ir::Polyline& line, const runtime::Rgb<double>& color) {
         for (std::size_t i = 1; i < line.points.size(); ++i) {
             segments.push_back({convert(line.points[i - 1], R{}), convert(line.points[i], R{}),
-                                convert(line.color, R{}), static_cast<R>(line.width)});
+                                convert(color, R{}), static_cast<R>(line.width)});
+        }
+    };
+    for (std::size_t band = 0; band < std::max<std::size_t>(1, scene.bands.size()); ++band) {
+        for (const ir::Polyline& line : scene.polylines) {
+            add(line, scene.bands.empty() ? line.color : line.bands[band]);
         }
     }
     return segments;

@@ -92,6 +92,7 @@ struct Polyline {
     runtime::Rgb<double> color{1, 1, 1};
     double width = 1; ///< in pixels
     lang::Span span;
+    std::vector<runtime::Rgb<double>> bands{}; ///< instead of the colour, for each of Scene::bands
 };
 
 struct LightColors {

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <type_traits>
 #include <utility>
 
@@ -105,11 +106,24 @@ void set_lights(const Scene& scene) {
         glLightfv(light, GL_SPECULAR, numbers(source.specular, 1).data());
         ++light;
     };
-    for (const auto& point : scene.point_lights) {
+    const auto add_point = [&](const auto& point) {
         add(numbers(point.position, 1), point);
         glLightf(light - 1, GL_CONSTANT_ATTENUATION, static_cast<float>(point.kc));
         glLightf(light - 1, GL_LINEAR_ATTENUATION, static_cast<float>(point.kl));
         glLightf(light - 1, GL_QUADRATIC_ATTENUATION, static_cast<float>(point.kq));
+    };
+    for (const auto& point : scene.point_lights) {
+        add_point(point);
+    }
+    for (const auto& spot : scene.spot_lights) {
+        add_point(spot);
+        glLightfv(light - 1, GL_SPOT_DIRECTION, numbers(spot.axis, 0).data());
+        glLightf(light - 1, GL_SPOT_CUTOFF,
+                 static_cast<float>(std::acos(spot.cos_outer) * 180 / std::numbers::pi));
+        glLightf(light - 1, GL_SPOT_EXPONENT, static_cast<float>(spot.exponent));
+    }
+    for (const auto& rectangle : scene.rectangle_lights) {
+        for_each_point(rectangle, add_point);
     }
     for (const auto& directional : scene.directional_lights) {
         add(numbers(directional.to_light, 0), directional);
@@ -282,11 +296,18 @@ std::string unsupported_by_opengl(const Scene& scene, const RasterModel<double>&
     if (scene.camera.projection == Projection::spherical || scene.camera.lens_radius > 0) {
         return "the camera is none of OpenGL's";
     }
-    if (!scene.spot_lights.empty() || !scene.rectangle_lights.empty()) {
-        return "OpenGL has point lights and directional lights";
+    std::size_t lights =
+        scene.point_lights.size() + scene.directional_lights.size() + scene.spot_lights.size();
+    for (const auto& rectangle : scene.rectangle_lights) {
+        lights += std::size_t{rectangle.nu} * rectangle.nv;
     }
-    if (scene.point_lights.size() + scene.directional_lights.size() > most_lights) {
-        return "OpenGL has at most 8 lights";
+    if (lights > most_lights) {
+        return "OpenGL has at most 8 lights, of which a rectangle takes one for each point of its grid";
+    }
+    for (const auto& spot : scene.spot_lights) {
+        if (spot.cos_inner != spot.cos_outer || spot.exponent > most_shininess) {
+            return "OpenGL's cones have hard edges and exponents up to 128";
+        }
     }
     for (const RasterSurface<double>& surface : model.surfaces) {
         if (surface.at_infinity) {

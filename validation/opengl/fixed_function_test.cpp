@@ -24,6 +24,8 @@ struct OpenGlScene : SceneBase<double> {
     static constexpr SceneTraits traits{.bare_shapes = 1U << 0 | 1U << 6,
                                         .point_lights = true,
                                         .directional_lights = true,
+                                        .spot_lights = true,
+                                        .rectangle_lights = true,
                                         .attenuation = true,
                                         .separate_specular = true,
                                         .specular = true,
@@ -37,8 +39,9 @@ struct OpenGlScene : SceneBase<double> {
                                         .lines = true};
     explicit OpenGlScene(const Dynamic& scene)
         : dynamic(scene), materials(scene.materials), point_lights(scene.point_lights),
-          directional_lights(scene.directional_lights), line_segments(scene.line_segments),
-          camera(scene.camera), ambient(scene.ambient), background(scene.background) {}
+          directional_lights(scene.directional_lights), spot_lights(scene.spot_lights),
+          rectangle_lights(scene.rectangle_lights), line_segments(scene.line_segments), camera(scene.camera),
+          ambient(scene.ambient), background(scene.background) {}
 
     template <class Primitive>
     const std::vector<Primitive>& primitives(Of<Primitive> table) const {
@@ -50,6 +53,8 @@ struct OpenGlScene : SceneBase<double> {
     const std::vector<Phong<double>>& materials;
     const std::vector<PointLight<double>>& point_lights;
     const std::vector<DirectionalLight<double>>& directional_lights;
+    const std::vector<SpotLight<double>>& spot_lights;
+    const std::vector<RectangleLight<double>>& rectangle_lights;
     const std::vector<LineSegment<double>>& line_segments;
     Camera<double> camera;
     Rgb<double> ambient, background;
@@ -105,8 +110,8 @@ struct Comparison {
     void add(const Shape& shape, Sides sides = {0, 0}) {
         scene.add(Bare<Shape>{shape, {next_++, sides}});
     }
-    void line(const Vec3<double>& from, const Vec3<double>& to) {
-        scene.line_segments.push_back({from, to, {0.2, 0.9, 0.4}, 1});
+    void line(const Vec3<double>& from, const Vec3<double>& to, double width = 1) {
+        scene.line_segments.push_back({from, to, {0.2, 0.9, 0.4}, width});
     }
 
     void expect_agreement() const {
@@ -213,6 +218,52 @@ TEST(OpenGl, LinesBeyondEachPlane) {
     c.line({0.11, 0.07, 7.5}, {-1.3, 0.81, 0.3});  // near
     c.line({0.31, -0.27, 0.5}, {1.7, -1.1, -7.5}); // far
     c.line({-4, 5, 0}, {-3, 6, 0});                // outside
+    c.expect_agreement();
+}
+
+TEST(OpenGl, WideLines) {
+    Comparison c;
+    c.scene.camera = camera_at({0, 0, 6}, {0, 0, 0}, 0.7);
+    c.line({-1.8, -0.31, 0.1}, {0.9, 0.57, -0.2}, 2); // across
+    c.line({0.31, -1.7, 0.1}, {0.9, 1.57, 0.4}, 3);   // down
+    c.line({1.9, 1.1, 0.1}, {-1.2, 1.3, 0.3}, 5);
+    c.line({-0.6, 1.5, 0.2}, {-1.1, -1.4, -0.7}, 6);
+    c.expect_agreement();
+}
+
+TEST(OpenGl, SamplesAtCorners) {
+    Comparison c;
+    c.settings.point = PixelPoint::corner;
+    c.add(Sphere<double>{{0, 0.2, 0}, 1.1});
+    c.expect_agreement();
+}
+
+TEST(OpenGl, SpotLights) {
+    Comparison c;
+    SpotLight<double> spot;
+    spot.position = {-1, 2, 3};
+    spot.diffuse = spot.specular = {1, 0.9, 0.8};
+    spot.axis = normalize(Vec3<double>{1, -1.7, -3});
+    spot.cos_inner = spot.cos_outer = std::cos(0.31);
+    spot.exponent = 4;
+    spot.kq = 0.03;
+    c.scene.point_lights.clear();
+    c.scene.spot_lights = {spot};
+    c.add(Sphere<double>{{0, 0.2, 0}, 1.1});
+    c.expect_agreement();
+}
+
+TEST(OpenGl, RectangleLights) {
+    Comparison c;
+    RectangleLight<double> light;
+    light.position = {-2, 2.5, 3};
+    light.edge_u = {1.5, 0.2, 0};
+    light.edge_v = {0, 0.3, -1};
+    light.nu = 3;
+    light.nv = 2;
+    light.kl = 0.05;
+    c.scene.rectangle_lights = {light};
+    c.add(Sphere<double>{{0, 0.2, 0}, 1.1});
     c.expect_agreement();
 }
 
