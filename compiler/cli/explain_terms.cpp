@@ -24,6 +24,10 @@ std::string text(const Rgb<double>& c) {
     return fmt::format("({:.6g}, {:.6g}, {:.6g})", c.r, c.g, c.b);
 }
 
+bool is_black(const Rgb<double>& c) {
+    return c == Rgb<double>{};
+}
+
 Rgb<double> ambient_of(const compiler::ir::Scene& scene, std::size_t band) {
     return scene.bands.empty() ? scene.ambient : scene.bands[band].ambient;
 }

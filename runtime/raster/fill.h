@@ -53,6 +53,14 @@ public:
         return block_of(column, row) * N + static_cast<std::size_t>(row) % block_height * block_width +
                static_cast<std::size_t>(column) % block_width;
     }
+    static int column_of(std::uint32_t sample) {
+        const auto block = static_cast<int>(sample / N), k = static_cast<int>(sample % N);
+        return block % blocks_across * block_width + k % block_width;
+    }
+    static int row_of(std::uint32_t sample) {
+        const auto block = static_cast<int>(sample / N), k = static_cast<int>(sample % N);
+        return block / blocks_across * block_height + k / block_width;
+    }
     const L& depths(std::size_t block) const { return z_[block]; }
     R depth(int column, int row) const {
         const std::size_t i = sample_of(column, row);

@@ -3,15 +3,15 @@
 #include "runtime/aov.h"
 #include "runtime/image.h"
 #include "runtime/raster/fill.h"
-#include "runtime/raster/interleave.h"
 #include "runtime/raster/lines.h"
 #include "runtime/raster/shade_triangles.h"
+#include "runtime/raster/tile_colors.h"
+#include "runtime/raster/tile_depth.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -32,7 +32,7 @@ public:
     TilePainter(const S& scene, const RasterModel<R>& model, const RasterView<R>& view, const TileGrid& tiles,
                 const std::vector<Bin<R>>& bins, RasterShading shading)
         : scene_(scene), model_(model), view_(view), tiles_(tiles), bins_(bins),
-          shader_(scene, model, view, shading), light_(Buffer::samples / N) {}
+          shader_(scene, model, view, shading), colors_(tiles) {}
 
     /// Finds what the tile's samples show.
     void show(int tile) {
@@ -46,6 +46,7 @@ public:
         buffer_.clear(tiles_.left_of(tile), tiles_.top_of(tile),
                       view_.clips_depth() ? R(1) : std::numeric_limits<R>::max());
         shader_.start(buffer_.left(), buffer_.top());
+        colors_.start(buffer_.left(), buffer_.top());
         const auto earlier = [this](std::uint32_t a, std::uint32_t b) { return is_earlier(a, b); };
         for (const Bin<R>& bin : bins_) {
             for (const SmallTriangle<R>& t : bin.small_of[index]) {
@@ -100,13 +101,13 @@ public:
         if constexpr (S::traits.transmission) {
             blend();
         }
-        store(pixels, crop, image);
+        colors_.store(pixels, crop, image);
         if (pseudodepth != nullptr) {
-            store_depth(pixels, crop, image.width, *pseudodepth);
+            store_depth(buffer_, tiles_.samples_across(), pixels, crop, image.width, *pseudodepth);
         }
     }
 
-    /// What lies on a sample, seen or not: a triangle by its id, or a line by its segment.
+    /// What lies on a sample of the picture, seen or not: a triangle by its id, or a line by its segment.
     struct Covering {
         std::uint32_t id;
         R z;
@@ -118,8 +119,9 @@ public:
             return found;
         }
         const auto index = static_cast<std::size_t>(tile);
-        const std::uint32_t sample = static_cast<std::uint32_t>(Buffer::sample_of(column, row)),
-                            seen = buffer_.entry(sample);
+        const auto sample =
+            static_cast<std::uint32_t>(Buffer::sample_of(column - buffer_.left(), row - buffer_.top()));
+        const std::uint32_t seen = buffer_.entry(sample);
         const auto add = [&](std::uint32_t id, const R& z, bool is_line) {
             found.push_back(
                 {id, z, is_line,
@@ -143,8 +145,7 @@ public:
                 visit(bin.triangles[i]);
             }
             for (const std::uint32_t i : bin.lines_of[index]) {
-                const SampleBox box{buffer_.left() + column, buffer_.top() + row, buffer_.left() + column + 1,
-                                    buffer_.top() + row + 1};
+                const SampleBox box{column, row, column + 1, row + 1};
                 draw_line(bin.lines[i], box, [&](std::int32_t x, std::int32_t y, const R& z) {
                     if (x == box.x0 && y == box.y0) {
                         add(bin.lines[i].segment, z, true);
@@ -247,20 +248,6 @@ private:
         });
     }
 
-    /// The blocks that have some of the pixels: f(block, its first column and row in the tile).
-    template <class F>
-    void for_each_block(const Crop& pixels, F&& f) const {
-        const int n = tiles_.samples_across();
-        const int x0 = (pixels.x0 * n - buffer_.left()) / Buffer::block_width * Buffer::block_width,
-                  y0 = (pixels.y0 * n - buffer_.top()) / Buffer::block_height * Buffer::block_height,
-                  x1 = pixels.x1 * n - buffer_.left(), y1 = pixels.y1 * n - buffer_.top();
-        for (int y = y0; y < y1; y += Buffer::block_height) {
-            for (int x = x0; x < x1; x += Buffer::block_width) {
-                f(Buffer::block_of(x, y), x, y);
-            }
-        }
-    }
-
     /// f(lanes, entry) for each entry that active lanes of a block show.
     template <class F>
     void for_each_entry(std::size_t block, const MaskOf<L>& active, F&& f) const {
@@ -274,7 +261,7 @@ private:
 
     void number_samples(const Crop& pixels) {
         std::uint32_t last = no_entry;
-        for_each_block(pixels, [&](std::size_t block, int, int) {
+        colors_.for_each_block(pixels, [&](std::size_t block, int, int) {
             const MaskOf<L> others = !buffer_.shows(block, last);
             if (any(others)) {
                 for_each_entry(block, others & buffer_.shown(block),
@@ -288,10 +275,10 @@ private:
 
     void shade(const Crop& pixels) {
         const Rgb<L> background = lanes<L>(Rgb<R>(scene_.background));
-        for_each_block(pixels, [&](std::size_t block, int x, int y) {
+        colors_.for_each_block(pixels, [&](std::size_t block, int x, int y) {
             const auto active = buffer_.shown(block);
             if (none(active)) {
-                light_[block] = background;
+                colors_[block] = background;
                 return;
             }
             LaneGroups<L> groups;
@@ -301,18 +288,10 @@ private:
             const L column = buffer_.columns() + L(static_cast<R>(x)),
                     row = buffer_.rows() + L(static_cast<R>(y));
             const Rgb<L> light = shader_.shade(groups, column, row, active).light;
-            light_[block] = all(active) ? light : choose(active, light, background);
+            colors_[block] = all(active) ? light : choose(active, light, background);
         });
     }
 
-    static int column_of(std::uint32_t sample) {
-        const auto block = static_cast<int>(sample / N), k = static_cast<int>(sample % N);
-        return block % Buffer::blocks_across * Buffer::block_width + k % Buffer::block_width;
-    }
-    static int row_of(std::uint32_t sample) {
-        const auto block = static_cast<int>(sample / N), k = static_cast<int>(sample % N);
-        return block / Buffer::blocks_across * Buffer::block_height + k / Buffer::block_width;
-    }
     /// Each fragment's own light, and the part of what is behind it that it leaves.
     void blend() {
         for (std::size_t i = 0; i < fragments_.size(); i += N) {
@@ -325,14 +304,14 @@ private:
                 MaskOf<L> lane(false);
                 set_lane(lane, k, true);
                 groups.add(lane, entries_[fragment.entry].number);
-                set_lane(column, k, static_cast<R>(column_of(fragment.sample)));
-                set_lane(row, k, static_cast<R>(row_of(fragment.sample)));
+                set_lane(column, k, static_cast<R>(Buffer::column_of(fragment.sample)));
+                set_lane(row, k, static_cast<R>(Buffer::row_of(fragment.sample)));
                 set_lane(active, k, k < count);
             }
             const Seen<L> seen = shader_.shade(groups, column, row, active);
             for (int k = 0; k < count; ++k) {
                 const std::uint32_t sample = fragments_[i + static_cast<std::size_t>(k)].sample;
-                Rgb<L>& to = light_[sample / N];
+                Rgb<L>& to = colors_[sample / N];
                 const int at = static_cast<int>(sample % N);
                 const auto put = [&](L& channel, const L& light, const L& transmit) {
                     set_lane(channel, at, lane(light, k) + lane(transmit, k) * lane(channel, at));
@@ -344,51 +323,6 @@ private:
         }
     }
 
-    void store(const Crop& pixels, const Crop& crop, Image& image) const {
-        if (tiles_.samples_across() == 1) {
-            store_samples(pixels, crop, image);
-            return;
-        }
-        const int n = tiles_.samples_across();
-        for (int y = pixels.y0; y < pixels.y1; ++y) {
-            float* to = image.at(pixels.x0 - crop.x0, y - crop.y0);
-            for (int x = pixels.x0; x < pixels.x1; ++x, to += 3) {
-                Rgb<R> sum{};
-                for (int j = 0; j < n; ++j) {
-                    for (int i = 0; i < n; ++i) {
-                        sum = sum + light_at(x * n + i - buffer_.left(), y * n + j - buffer_.top());
-                    }
-                }
-                const R count = static_cast<R>(n * n);
-                to[0] = static_cast<float>(sum.r / count) + 0.0F;
-                to[1] = static_cast<float>(sum.g / count) + 0.0F;
-                to[2] = static_cast<float>(sum.b / count) + 0.0F;
-            }
-        }
-    }
-    /// One for each pixel.
-    void store_samples(const Crop& pixels, const Crop& crop, Image& image) const {
-        constexpr int row_floats = 3 * Buffer::block_width;
-        for_each_block(pixels, [&](std::size_t block, int column, int row) {
-            float colors[std::size_t{3} * N];
-            store_interleaved(light_[block], colors);
-            const int x = buffer_.left() + column, y = buffer_.top() + row;
-            if (x >= pixels.x0 && y >= pixels.y0 && x + Buffer::block_width <= pixels.x1 &&
-                y + Buffer::block_height <= pixels.y1) {
-                for (int j = 0; j < Buffer::block_height; ++j) {
-                    std::memcpy(image.at(x - crop.x0, y + j - crop.y0), colors + j * row_floats,
-                                row_floats * sizeof(float));
-                }
-                return;
-            }
-            const int x0 = std::max(x, pixels.x0), x1 = std::min(x + Buffer::block_width, pixels.x1),
-                      y0 = std::max(y, pixels.y0), y1 = std::min(y + Buffer::block_height, pixels.y1);
-            for (int j = y0; j < y1; ++j) {
-                std::copy_n(colors + (j - y) * row_floats + 3 * (x0 - x), 3 * (x1 - x0),
-                            image.at(x0 - crop.x0, j - crop.y0));
-            }
-        });
-    }
     /// Of the first of several empty tiles side by side, all of theirs: long rows are faster to write than
     /// many short ones.
     void store_background(int tile, const Crop& crop, Image& image) {
@@ -412,31 +346,6 @@ private:
             std::copy_n(background_.data(), numbers, image.at(pixels.x0 - crop.x0, y - crop.y0));
         }
     }
-    Rgb<R> light_at(int column, int row) const {
-        const std::size_t sample = Buffer::sample_of(column, row);
-        const Rgb<L>& light = light_[sample / N];
-        const int k = static_cast<int>(sample % N);
-        return {lane(light.r, k), lane(light.g, k), lane(light.b, k)};
-    }
-
-    static void store_no_depth(const Crop& pixels, const Crop& crop, int width, std::vector<R>& to) {
-        for (int y = pixels.y0; y < pixels.y1; ++y) {
-            const auto first = to.begin() + std::ptrdiff_t{y - crop.y0} * width + (pixels.x0 - crop.x0);
-            std::fill(first, first + (pixels.x1 - pixels.x0), R(1));
-        }
-    }
-    void store_depth(const Crop& pixels, const Crop& crop, int width, std::vector<R>& to) const {
-        const int n = tiles_.samples_across();
-        for (int y = pixels.y0; y < pixels.y1; ++y) {
-            for (int x = pixels.x0; x < pixels.x1; ++x) {
-                const int column = x * n + n / 2 - buffer_.left(), row = y * n + n / 2 - buffer_.top();
-                const bool is_shown = buffer_.entry(Buffer::sample_of(column, row)) != no_entry;
-                to[static_cast<std::size_t>(y - crop.y0) * static_cast<std::size_t>(width) +
-                   static_cast<std::size_t>(x - crop.x0)] = is_shown ? buffer_.depth(column, row) : R(1);
-            }
-        }
-    }
-
     void store_aovs(int column, int row, std::uint32_t entry, std::size_t i, AovImage& to) const {
         const auto put = [i](auto& list, auto value) {
             if (!list.empty()) {
@@ -483,7 +392,7 @@ private:
     const std::vector<Bin<R>>& bins_;
     Shader shader_;
     Buffer buffer_;
-    std::vector<Rgb<L>> light_; ///< of each block
+    TileColors<L> colors_;
     std::vector<Entry> entries_;
     std::uint32_t first_line_ = 0; ///< entries from here on are lines
     std::vector<Through> through_;

@@ -4,12 +4,12 @@
 #include "runtime/raster/corners.h"
 #include "runtime/raster/lane_groups.h"
 #include "runtime/raster/light_points.h"
+#include "runtime/raster/lit_corners.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <vector>
 
 /// What samples show of the triangles that were found nearest (L10).
@@ -218,19 +218,9 @@ private:
 
     using PackOfShown = std::array<Shown*, static_cast<std::size_t>(N)>;
 
-    /// Several triangles' corners in the world.
-    struct Corners3 {
-        std::array<Vec3<L>, 3> points;
-        std::array<L, 3> weights;
-        std::array<Vec3<L>, 3> normals;
-        Vec3<L> geometric; ///< on the front side
-        L side;            ///< -1: seen from behind
-        IndexOf<L> material;
-    };
-
     /// The first `count` of these triangles.
     void prepare(const PackOfShown& pack, std::size_t count) {
-        const Corners3 corners = corners_of(pack);
+        const LitCorners<L> corners = corners_of(pack);
         std::array<EyePoint<L>, 3> eye;
         std::array<ClipPoint<L>, 3> clip;
         for (std::size_t c = 0; c < 3; ++c) {
@@ -250,7 +240,7 @@ private:
         }
     }
     template <class SumOf>
-    void prepare_samples(const PackOfShown& pack, std::size_t count, const Corners3& corners,
+    void prepare_samples(const PackOfShown& pack, std::size_t count, const LitCorners<L>& corners,
                          const std::array<EyePoint<L>, 3>& eye, SumOf&& sum_of) {
         const auto keep = [&](std::size_t at, const Linear<L>& linear) {
             store(pack, count, true, at, linear);
@@ -268,7 +258,7 @@ private:
         }
     }
     template <class SumOf>
-    void prepare_vertices(const PackOfShown& pack, std::size_t count, const Corners3& corners,
+    void prepare_vertices(const PackOfShown& pack, std::size_t count, const LitCorners<L>& corners,
                           SumOf&& sum_of) {
         Mask active(false);
         for (std::size_t k = 0; k < count; ++k) {
@@ -322,59 +312,23 @@ private:
         }
     }
 
-    static L from_lanes(const R* values) {
-        L result;
-        std::memcpy(&result.v, values, sizeof result.v);
-        return result;
-    }
-    Corners3 corners_of(const PackOfShown& pack) const {
-        R values[23][N];
-        typename IndexOf<L>::Number materials[N];
-        for (int k = 0; k < N; ++k) {
-            Shown& s = *pack[static_cast<std::size_t>(k)];
-            const std::uint32_t i = (s.id & triangle_number) - s.surface->first;
-            const WorldTriangle<R> t = world_triangle(model_, scene_.meshes, *s.surface, i);
-            for (std::size_t c = 0; c < 3; ++c) {
-                values[4 * c][k] = t.corners[c].x;
-                values[4 * c + 1][k] = t.corners[c].y;
-                values[4 * c + 2][k] = t.corners[c].z;
-                values[4 * c + 3][k] = t.weights[c];
-            }
-            const auto normals = world_normals(model_, scene_.meshes, *s.surface, i);
-            for (std::size_t c = 0; c < 3; ++c) {
-                values[12 + 3 * c][k] = normals[c].x;
-                values[13 + 3 * c][k] = normals[c].y;
-                values[14 + 3 * c][k] = normals[c].z;
-            }
-            const bool back = (s.id & seen_from_back) != 0;
-            values[21][k] = s.surface->is_mirrored ? R(-1) : R(1);
-            values[22][k] = back ? R(-1) : R(1);
-            s.material = S::traits.two_sided && back ? s.surface->sides.back : s.surface->sides.front;
-            materials[k] = s.material;
+    /// Notes their materials, too.
+    LitCorners<L> corners_of(const PackOfShown& pack) const {
+        std::array<const RasterSurface<R>*, static_cast<std::size_t>(N)> surfaces;
+        std::array<std::uint32_t, static_cast<std::size_t>(N)> ids;
+        for (std::size_t k = 0; k < surfaces.size(); ++k) {
+            surfaces[k] = pack[k]->surface;
+            ids[k] = pack[k]->id;
         }
-        Corners3 result;
-        const auto vector = [&](std::size_t n) {
-            return Vec3<L>{from_lanes(values[n]), from_lanes(values[n + 1]), from_lanes(values[n + 2])};
-        };
-        for (std::size_t c = 0; c < 3; ++c) {
-            result.points[c] = vector(4 * c);
-            result.weights[c] = from_lanes(values[4 * c + 3]);
-            result.normals[c] = vector(12 + 3 * c);
+        const LitCorners<L> corners =
+            lit_corners<S::traits.two_sided, L>(model_, scene_.meshes, surfaces, ids);
+        for (std::size_t k = 0; k < surfaces.size(); ++k) {
+            pack[k]->material = lane(corners.material, static_cast<int>(k));
         }
-        const auto edge = [&](std::size_t c) {
-            return result.points[c] - result.points[0] * result.weights[c];
-        };
-        result.geometric = normalize(cross(edge(1), edge(2))) * from_lanes(values[21]);
-        result.side = from_lanes(values[22]);
-        std::memcpy(&result.material.v, materials, sizeof materials);
-        for (Vec3<L>& normal : result.normals) { // those that a mesh lacks
-            const Mask missing = (normal.x == 0) & (normal.y == 0) & (normal.z == 0);
-            normal = choose(missing, result.geometric, normal);
-        }
-        return result;
+        return corners;
     }
 
-    Seen<L> light_vertex(const PackOfShown& pack, const Corners3& corners, std::size_t c,
+    Seen<L> light_vertex(const PackOfShown& pack, const LitCorners<L>& corners, std::size_t c,
                          const Mask& active) const {
         const Vec3<L> normal = normalize(corners.normals[c]);
         SurfacePoint<L> point{};
