@@ -181,7 +181,7 @@ TEST(Raster, ComesNearToRaysWithTheTolerance) {
     const Image rays = draw_by_rays(scene, wanted);
     std::printf("tessellation  triangles  error against rays (root mean square)\n");
     std::vector<double> tolerances, errors;
-    for (double tessellation = 0.004; tessellation > 1e-4; tessellation /= 2) {
+    for (double tessellation = 0.004; tessellation > 2e-4; tessellation /= 2) {
         wanted.settings.raster.tessellation = tessellation;
         tolerances.push_back(tessellation);
         errors.push_back(root_mean_square(draw(scene, wanted), rays));
