@@ -82,8 +82,7 @@ const std::map<Diag, Case>& cases() {
          {"sphere { }\nperspective_camera {\n  eye = (0, 0, 50)\n  near = 1e-6\n}\nplane { }\n"}},
         {Diag::depth_gap,
          {"plane { }\ndisc { center = (0, 0.001, 0) }\nperspective_camera {\n  eye = (0, 20, 100)\n  near = "
-          "0.01\n}\n"
-          "headlight { }\nrender { method = raster { } }\n"}},
+          "0.1\n}\nrender { method = raster { } }\n"}},
         {Diag::far_from_origin, {"for (i in 0..3) {\n  sphere { center = (1e6, i, 0) }\n}\n"}},
         {Diag::no_camera, {"sphere { }\n"}},
         {Diag::no_light, {"sphere { }\n"}},

@@ -75,8 +75,8 @@ TEST_F(Raster, DrawsLinesThatRaysCannotMeet) {
 
 TEST_F(Raster, ExplainsWhatLiesOnAPixel) {
     write("s.scn", std::string(ball) +
-                       "let glass = phong { diffuse = rgb(0, 0.2, 0), alpha = 0.5 }\n"
-                       "disc { center = (0, 0, 2), normal = (0, 0, 1), material = glass }\n"
+                       "let pane = phong { diffuse = rgb(0, 0.2, 0), opacity = 0.5 }\n"
+                       "disc { center = (0, 0, 2), normal = (0, 0, 1), material = pane }\n"
                        "polyline { points = [(-3, 0.3, 0), (3, 0.3, 0)], color = rgb(1, 0, 0) }\n"
                        "render { method = raster { shading = \"gouraud\" } }\n");
     const runtime::Image image = drawn({"--precision", "double"});
