@@ -459,9 +459,6 @@ void Emitter<R>::scene_type() {
         values_.add(std::span<const R>(function_constants_));
         read_member("function_constants");
     }
-    if (scene_.traits.lines) {
-        colored_table("LineSegment<R>", "line_segments", line_segments_of<R>(scene_));
-    }
     meshes();
     images();
     if (scene_.traits.accelerator || any_scene_) {
@@ -488,6 +485,9 @@ void Emitter<R>::colors() {
     }
     if (scene_.traits.rectangle_lights || any_scene_) {
         colored_table("RectangleLight<R>", "rectangle_lights", lights_of<runtime::RectangleLight, R>(scene_));
+    }
+    if (scene_.traits.lines) {
+        colored_table("LineSegment<R>", "line_segments", line_segments_of<R>(scene_));
     }
     if (!has_bands()) {
         member("Rgb<R>", "ambient", convert(scene_.ambient, R{}));

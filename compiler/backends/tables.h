@@ -5,6 +5,7 @@
 #include "runtime/math/affine.h"
 #include "runtime/scene.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <tuple>
