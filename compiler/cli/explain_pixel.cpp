@@ -258,10 +258,7 @@ std::string explain_rays(const Loaded& loaded, const ExplainOptions& options) {
     if (options.json) {
         return pixel_json(loaded, settings, place, precision, explained);
     }
-    std::string out = heading(scene, settings, place, precision, explained.band);
-    if (!is_plain) {
-        out += "as by a plain grid with the box filter, which is not what the scene asks for\n";
-    }
+    std::string out = heading(scene, settings, place, precision, explained.band, is_plain);
     out += "\n" + camera_text(scene, settings, explained.how) + "\n";
     out += RayWriter(scene, settings, Names(loaded), explained).run();
     return out + "\n" + sum_text(scene, settings, explained);

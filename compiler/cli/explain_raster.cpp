@@ -163,7 +163,7 @@ std::string explain_raster(const Loaded& loaded, const ExplainOptions& options) 
     if (options.json) {
         return json_text(loaded, settings, place, precision, explained);
     }
-    std::string out = heading(scene, settings, place, precision, explained.band);
+    std::string out = heading(scene, settings, place, precision, explained.band, true);
     out += explained.how.drawn.empty() ? fmt::format("\nNO TRIANGLE OR LINE covers it: background {}\n",
                                                      text(background_of(scene, explained.band)))
                                        : "\nTRIANGLES AND LINES that cover it, by z* (L4)\n";

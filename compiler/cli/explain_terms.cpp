@@ -63,7 +63,7 @@ compiler::PixelPlace place_of_sample(const runtime::RenderSettings& settings, co
 
 std::string heading(const compiler::ir::Scene& scene, const runtime::RenderSettings& settings,
                     const compiler::PixelPlace& place, const compiler::PrecisionChoice& precision,
-                    std::size_t band) {
+                    std::size_t band, bool is_plain) {
     const int n = samples_per_axis(settings);
     std::string out = fmt::format("pixel {},{} of scene `{}`, {} x {} pixels", place.x, place.y, scene.name,
                                   settings.width, settings.height);
@@ -71,6 +71,9 @@ std::string heading(const compiler::ir::Scene& scene, const runtime::RenderSetti
                ? fmt::format(", one sample at its {}\n",
                              settings.point == runtime::PixelPoint::corner ? "lower left corner" : "centre")
                : fmt::format("; sample {},{} of {} x {}, from the top left corner\n", place.i, place.j, n, n);
+    if (!is_plain) {
+        out += "as by a plain grid with the box filter, which is not what the scene asks for\n";
+    }
     out += fmt::format("in {}: {}\n", name_of(precision.precision), precision.reason);
     if (!scene.bands.empty()) {
         const auto wavelength = [&](std::size_t k) { return lang::wavelength(3 * band + k); };

@@ -30,10 +30,11 @@ compiler::PrecisionChoice choose_precision(const compiler::ir::Scene& scene,
 /// Throws host::UsageError for a pixel or sample that the picture does not have.
 compiler::PixelPlace place_of_sample(const runtime::RenderSettings& settings, const ExplainOptions& options);
 
-/// Which sample of which picture, and in which arithmetic.
+/// Which sample of which picture, and in which arithmetic. Not `is_plain`: the scene asks for other samples
+/// or another filter than are explained.
 std::string heading(const compiler::ir::Scene& scene, const runtime::RenderSettings& settings,
                     const compiler::PixelPlace& place, const compiler::PrecisionChoice& precision,
-                    std::size_t band);
+                    std::size_t band, bool is_plain);
 
 /// Collects indented lines, and writes how points are lit.
 class TermsWriter {

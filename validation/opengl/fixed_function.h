@@ -17,8 +17,8 @@ struct OpenGlPicture {
 };
 
 /// Why OpenGL cannot draw the scene as a raster picture does; empty where it can. It has at most 8 lights,
-/// point lights and directional ones, exponents of highlights up to 128, materials that do not vary from
-/// place to place, and colours at vertices.
+/// point lights, spots with hard edges and directional ones, exponents of highlights up to 128, materials
+/// that do not vary from place to place, and colours at vertices.
 std::string unsupported_by_opengl(const runtime::DynamicScene<double>& scene,
                                   const runtime::RasterModel<double>& model,
                                   const runtime::RenderSettings& settings);
