@@ -2,6 +2,7 @@
 
 #include "runtime/host/read_image.h"
 #include "validation/compare.h"
+#include "validation/render_cache.h"
 #include "validation/renderer_output.h"
 #include "validation/subprocess.h"
 
@@ -173,6 +174,67 @@ std::string version_line(const std::string& text, const std::string& name) {
     return name;
 }
 
+/// A renderer's version is asked for once.
+const std::string& known_version(const char* program) {
+    static const std::string povray = povray_version().value_or("");
+    static const std::string blender = blender_version().value_or("");
+    return program == std::string_view("povray") ? povray : blender;
+}
+
+/// What the cache has for the command, else what `draw` makes of it, which is then kept.
+template <class Draw>
+RenderResult cached(const RenderJob& job, const Command& command, const Draw& draw) {
+    if (job.cache == nullptr || !job.cache->keeps())
+        return draw();
+    const std::string key = render_key(job, command, known_version(command.program.c_str()));
+    if (std::optional<RenderResult> kept = job.cache->find(key))
+        return std::move(*kept);
+    RenderResult result = draw();
+    job.cache->store(key, result);
+    return result;
+}
+
+RenderResult run_povray(const RenderJob& job, const Command& command, const char* image, double exposure) {
+    RenderResult result;
+    result.exposure = exposure;
+    const ProcessResult process = run(command);
+    const PovrayOutput output = read_povray_output(process.err);
+    result.command = command_line(command);
+    result.version = output.version;
+    result.warnings = output.warnings;
+    result.log = without_folder(output.log, job.folder);
+    result.times.parse = output.parse;
+    result.times.bounding = output.bounding;
+    result.times.trace = output.trace;
+    result.times.total = process.wall_seconds;
+    result.times.start_up = remaining(result.times);
+    judge_end(result, process, command, joined(output.errors));
+    if (result.status != RenderStatus::done)
+        return result;
+    take_image(result, job, image, true);
+    warn_of_clipping(result, job.brightest);
+    for (float& value : result.image.pixels)
+        value = static_cast<float>(static_cast<double>(value) / result.exposure);
+    return result;
+}
+
+RenderResult run_blender(const RenderJob& job, const Command& command, const char* image) {
+    RenderResult result;
+    const ProcessResult process = run(command);
+    const BlenderOutput output = read_blender_output(process.out, process.err);
+    result.command = command_line(command);
+    result.version = output.version;
+    result.log = without_folder(output.log, job.folder);
+    result.times.trace = output.render;
+    result.times.saving = output.saving;
+    result.times.total = process.wall_seconds;
+    result.times.start_up = remaining(result.times);
+    judge_end(result, process, command, output.error);
+    if (result.status == RenderStatus::done)
+        take_image(result, job, image, false);
+    return result;
+}
+
 } // namespace
 
 std::optional<std::string> find_opengl_program() {
@@ -198,28 +260,9 @@ RenderResult render_with_povray(const RenderJob& job) {
     if (!find_program("povray"))
         return missing("POV-Ray");
     forget_old_image(job, image);
-    RenderResult result;
-    result.exposure = exposure_for(job.brightest);
-    const Command command = povray_command(job, bring_scene(job, "scene.pov"), image, result.exposure);
-    const ProcessResult process = run(command);
-    const PovrayOutput output = read_povray_output(process.err);
-    result.command = command_line(command);
-    result.version = output.version;
-    result.warnings = output.warnings;
-    result.log = without_folder(output.log, job.folder);
-    result.times.parse = output.parse;
-    result.times.bounding = output.bounding;
-    result.times.trace = output.trace;
-    result.times.total = process.wall_seconds;
-    result.times.start_up = remaining(result.times);
-    judge_end(result, process, command, joined(output.errors));
-    if (result.status != RenderStatus::done)
-        return result;
-    take_image(result, job, image, true);
-    warn_of_clipping(result, job.brightest);
-    for (float& value : result.image.pixels)
-        value = static_cast<float>(static_cast<double>(value) / result.exposure);
-    return result;
+    const double exposure = exposure_for(job.brightest);
+    const Command command = povray_command(job, bring_scene(job, "scene.pov"), image, exposure);
+    return cached(job, command, [&] { return run_povray(job, command, image, exposure); });
 }
 
 RenderResult render_with_blender(const RenderJob& job) {
@@ -227,21 +270,8 @@ RenderResult render_with_blender(const RenderJob& job) {
     if (!find_program("blender"))
         return missing("Blender");
     forget_old_image(job, image);
-    RenderResult result;
     const Command command = blender_command(job, bring_scene(job, "scene.py"), image);
-    const ProcessResult process = run(command);
-    const BlenderOutput output = read_blender_output(process.out, process.err);
-    result.command = command_line(command);
-    result.version = output.version;
-    result.log = without_folder(output.log, job.folder);
-    result.times.trace = output.render;
-    result.times.saving = output.saving;
-    result.times.total = process.wall_seconds;
-    result.times.start_up = remaining(result.times);
-    judge_end(result, process, command, output.error);
-    if (result.status == RenderStatus::done)
-        take_image(result, job, image, false);
-    return result;
+    return cached(job, command, [&] { return run_blender(job, command, image); });
 }
 
 std::optional<std::string> povray_version() {

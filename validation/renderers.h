@@ -10,6 +10,8 @@
 /// Other renderers, run on exported scenes.
 namespace scc::validation {
 
+class RenderCache;
+
 struct RenderJob {
     std::filesystem::path scene; ///< the exported `.pov` or `.py`
     /// An existing folder for the renderer's files. The scene is copied there (unless it lies there already)
@@ -22,7 +24,9 @@ struct RenderJob {
     double timeout_seconds = 600;
     double brightest =
         1; ///< the reference's largest value; POV-Ray's file ends at 1, so its exposure follows
-    bool no_bounding = false; ///< POV-Ray's -MB, for scenes beyond 1e6 from the origin
+    bool no_bounding = false;           ///< POV-Ray's -MB, for scenes beyond 1e6 from the origin
+    std::vector<std::string> beside;    ///< names of files beside the scene that it reads
+    const RenderCache* cache = nullptr; ///< null: it draws in any case
 };
 
 enum class RenderStatus { done, missing, failed, timed_out, interrupted };
@@ -45,8 +49,9 @@ struct RenderResult {
     double exposure = 1; ///< the factor that the file was drawn with; already divided out of the image
     RenderTimes times;
     std::vector<std::string> warnings;
-    std::string log;     ///< the renderer's talk, without its progress lines
-    std::string command; ///< as one could type it in the folder
+    std::string log;         ///< the renderer's talk, without its progress lines
+    std::string command;     ///< as one could type it in the folder
+    bool from_cache = false; ///< drawn and timed at some earlier time
 };
 
 /// povray +Iscene.pov +Oimage.png +W640 +H480 +FN16 File_Gamma=1.0 -A -D [+WT2] [-MB]

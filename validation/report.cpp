@@ -97,6 +97,7 @@ Json to_json(const RendererReport& renderer, const std::string& file) {
     json["budget"] = renderer.budget ? validation::to_json(*renderer.budget) : Json(nullptr);
     json["metrics"] = renderer.metrics ? validation::to_json(*renderer.metrics) : Json(nullptr);
     json["times_s"] = to_json(renderer.times);
+    json["from_cache"] = renderer.from_cache;
     json["file"] = text_or_null(file);
     json["ledger"] = to_json(renderer.ledger);
     json["warnings"] = renderer.warnings;
@@ -113,12 +114,14 @@ void write_exr(const runtime::Image& image, const fs::path& folder, const std::s
 
 ReportSummary summarize(const Report& report) {
     ReportSummary summary;
-    for (const SceneReport& scene : report.scenes)
+    for (const SceneReport& scene : report.scenes) {
+        summary.broken += !scene.failure.empty();
         for (const RendererReport& renderer : scene.renderers) {
             summary.passed += renderer.judgement.verdict == Verdict::passed;
             summary.failed += renderer.judgement.verdict == Verdict::failed;
             summary.skipped += renderer.judgement.verdict == Verdict::skipped;
         }
+    }
     return summary;
 }
 
@@ -129,11 +132,15 @@ Json to_json(const Report& report) {
     json["versions"] = Json::object();
     for (const auto& [program, version] : report.versions)
         json["versions"][program] = version;
-    json["summary"] = {{"passed", summary.passed}, {"failed", summary.failed}, {"skipped", summary.skipped}};
+    json["summary"] = {{"passed", summary.passed},
+                       {"failed", summary.failed},
+                       {"skipped", summary.skipped},
+                       {"broken", summary.broken}};
     json["scenes"] = Json::array();
     for (std::size_t i = 0; i < report.scenes.size(); ++i) {
         const SceneReport& scene = report.scenes[i];
         Json entry{{"name", scene.name}, {"description", scene.description}};
+        entry["failure"] = text_or_null(scene.failure);
         entry["size"] = {scene.reference.width, scene.reference.height};
         entry["reference"] = {{"made_by", scene.reference_made_by},
                               {"file", text_or_null(files[i].reference)},

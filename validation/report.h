@@ -32,7 +32,8 @@ struct RendererReport {
     std::optional<Budget> budget;
     std::optional<Metrics> metrics;
     RenderTimes times;
-    runtime::Image image; ///< empty if there is none
+    bool from_cache = false; ///< drawn and timed at some earlier time
+    runtime::Image image;    ///< empty if there is none
     std::vector<LedgerRow> ledger;
     std::vector<std::string> warnings;
     std::string worst_pixel; ///< how our renderer explains the worst pixel, as text
@@ -46,6 +47,7 @@ struct SceneReport {
     std::string reference_made_by; ///< "scc render --precision double"
     RenderTimes times;             ///< of the reference
     std::vector<RendererReport> renderers;
+    std::string failure; ///< why it could not be drawn by ourselves; empty if it was
 };
 
 struct Report {
@@ -58,6 +60,7 @@ struct ReportSummary {
     std::size_t passed = 0;
     std::size_t failed = 0;
     std::size_t skipped = 0;
+    std::size_t broken = 0; ///< scenes that we could not draw ourselves
 };
 
 ReportSummary summarize(const Report& report);

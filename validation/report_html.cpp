@@ -210,7 +210,8 @@ std::string times_table(const SceneReport& scene) {
                            "<th>saving</th><th>total</th>");
     rows += times_row("reference", scene.times);
     for (const RendererReport& renderer : scene.renderers)
-        rows += times_row(renderer.renderer, renderer.times);
+        rows += times_row(renderer.renderer + (renderer.from_cache ? " (kept from an earlier run)" : ""),
+                          renderer.times);
     return table(rows);
 }
 
@@ -271,6 +272,8 @@ std::string scene_html(const SceneReport& scene, std::size_t index) {
     std::string html =
         fmt::format("<section>\n<h2 id=\"{}\">{}</h2>\n", scene_anchor(index), escape_html(scene.name));
     html += paragraph(scene.description);
+    if (!scene.failure.empty())
+        html += "<p class=\"failed\">" + escape_html(scene.failure) + "</p>\n";
     html += ErrorTable(scene).html() + times_table(scene);
     for (const RendererReport& renderer : scene.renderers)
         html += renderer_html(scene, renderer);

@@ -1,5 +1,6 @@
 #include "runtime/host/read_image.h"
 #include "validation/embed.h"
+#include "validation/junit.h"
 #include "validation/report.h"
 #include "validation/scratch.h"
 
@@ -209,6 +210,25 @@ TEST(Shrunk, AveragesOrKeepsTheMaximumAndLeavesSmallImagesAlone) {
 TEST(Shrunk, WideImagesAreEmbeddedAtMostEightHundredPixelsWide) {
     EXPECT_EQ(shrunk(Image(1920, 1080), 800, Shrink::average).width, 640);
     EXPECT_EQ(shrunk(Image(801, 10), 800, Shrink::average).width, 401);
+}
+
+TEST(JUnit, CountsAndEscapes) {
+    Report report = example();
+    report.scenes[0].renderers[2].judgement.reason = "a<b\nc\x01 \xFF \"q\"";
+    SceneReport broken;
+    broken.name = "wrong.scn";
+    broken.failure = "the scene is wrong";
+    report.scenes.push_back(broken);
+    const std::string xml = to_junit(report);
+    EXPECT_EQ(count(xml, "<testsuite "), 3U);
+    EXPECT_EQ(count(xml, "<testcase "), 7U);
+    EXPECT_EQ(count(xml, "<failure "), 2U);
+    EXPECT_EQ(count(xml, "<skipped "), 2U);
+    EXPECT_NE(xml.find("tests=\"7\" failures=\"2\" errors=\"1\" skipped=\"2\""), std::string::npos) << xml;
+    EXPECT_NE(xml.find("<error message=\"the scene is wrong\"/>"), std::string::npos) << xml;
+    EXPECT_NE(xml.find("message=\"a&lt;b&#10;c\xEF\xBF\xBD \xEF\xBF\xBD &quot;q&quot;\""), std::string::npos)
+        << xml;
+    EXPECT_EQ(summarize(report).broken, 1U);
 }
 
 } // namespace
