@@ -96,6 +96,10 @@ Json to_json(const RendererReport& renderer, const std::string& file) {
     json["reason"] = text_or_null(renderer.judgement.reason);
     json["budget"] = renderer.budget ? validation::to_json(*renderer.budget) : Json(nullptr);
     json["metrics"] = renderer.metrics ? validation::to_json(*renderer.metrics) : Json(nullptr);
+    json["layers"] = Json::array();
+    for (const LayerDifference& layer : renderer.layers)
+        json["layers"].push_back(validation::to_json(layer));
+    json["cause"] = renderer.cause ? validation::to_json(*renderer.cause) : Json(nullptr);
     json["times_s"] = to_json(renderer.times);
     json["from_cache"] = renderer.from_cache;
     json["file"] = text_or_null(file);

@@ -2,6 +2,7 @@
 
 #include "runtime/image.h"
 #include "validation/budget.h"
+#include "validation/cause.h"
 #include "validation/compare.h"
 #include "validation/renderers.h"
 
@@ -36,7 +37,9 @@ struct RendererReport {
     runtime::Image image;    ///< empty if there is none
     std::vector<LedgerRow> ledger;
     std::vector<std::string> warnings;
-    std::string worst_pixel; ///< how our renderer explains the worst pixel, as text
+    std::vector<LayerDifference> layers; ///< empty: not compared
+    std::optional<Cause> cause;          ///< of a failure
+    std::string worst_pixel;             ///< how our renderer explains the worst pixel, as text
     std::string log;
 };
 

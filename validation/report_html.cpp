@@ -248,12 +248,40 @@ std::string budget_text(const Budget& budget) {
     return text + ". " + budget.reason;
 }
 
+std::string layers_html(const RendererReport& renderer) {
+    if (renderer.layers.empty())
+        return "";
+    std::string rows = row("<th>what rays meet</th><th>pixels that differ</th><th>of</th><th>largest</th>"
+                           "<th>at</th><th>tolerance</th><th>unit</th>");
+    for (const LayerDifference& layer : renderer.layers)
+        rows += row(cell(fmt::format("<span class=\"{}\">{}</span>", differs(layer) ? "failed" : "passed",
+                                     escape_html(layer.layer))) +
+                    number_cell(std::to_string(layer.pixels)) + number_cell(std::to_string(layer.compared)) +
+                    number_cell(number(layer.largest)) +
+                    number_cell(layer.pixels > 0 ? fmt::format("({}, {})", layer.x, layer.y) : "") +
+                    number_cell(number(layer.tolerance)) + cell(escape_html(layer.unit)));
+    return table(rows);
+}
+
+std::string cause_html(const RendererReport& renderer) {
+    if (!renderer.cause)
+        return "";
+    std::string rows = row("<th>test</th><th>finding</th><th>part of the squared difference explained</th>");
+    for (const Evidence& evidence : renderer.cause->evidence)
+        rows += row(cell(escape_html(evidence.test)) + cell(escape_html(evidence.finding)) +
+                    number_cell(fmt::format("{:.4f}", evidence.explained)));
+    return fmt::format("<p>Cause class: <strong>{}</strong>. {}</p>\n", name_of(renderer.cause->cause),
+                       escape_html(renderer.cause->summary)) +
+           folded("evidence", table(rows), true);
+}
+
 std::string renderer_html(const SceneReport& scene, const RendererReport& renderer) {
     std::string html =
         fmt::format("<h3>{} {}</h3>\n", escape_html(renderer.renderer), verdict_html(renderer.judgement));
     html += paragraph(renderer.judgement.reason);
     if (renderer.budget)
         html += "<p class=\"dim\">" + escape_html(budget_text(*renderer.budget)) + "</p>\n";
+    html += cause_html(renderer) + layers_html(renderer);
     html += figures(scene, renderer);
     if (!renderer.worst_pixel.empty())
         html += folded("the worst pixel", "<pre>" + escape_html(renderer.worst_pixel) + "</pre>\n",

@@ -68,7 +68,7 @@ SceneBudget read_budget(std::string_view text, int line) {
         throw BudgetError(line, "a budget of the scene's own needs a reason: `... because REASON`");
     SceneBudget budget;
     budget.line = line;
-    budget.renderer = trimmed(text.substr(word.size(), colon < word.size() ? 0 : colon - word.size()));
+    budget.renderer = trimmed(text.substr(word.size(), colon - word.size()));
     budget.reason = trimmed(text.substr(reason_at + because.size()));
     if (std::find(renderers.begin(), renderers.end(), budget.renderer) == renderers.end())
         throw BudgetError(line, fmt::format("there is no renderer `{}`; there are {}", budget.renderer,

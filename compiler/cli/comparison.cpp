@@ -1,6 +1,7 @@
 #include "compiler/cli/comparison.h"
 
 #include "compiler/backends/render.h"
+#include "compiler/cli/diagnosis.h"
 #include "compiler/cli/explain.h"
 #include "compiler/cli/export.h"
 #include "compiler/cli/native.h"
@@ -275,6 +276,7 @@ RendererReport compare_with(const Subject& subject, const std::string& renderer,
     if (result.metrics && result.judgement.verdict == Verdict::failed) {
         explain_worst(result, subject);
     }
+    diagnose(result, subject, threads);
     return result;
 }
 

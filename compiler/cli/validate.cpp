@@ -46,7 +46,12 @@ std::string summary_line(const RendererReport& result) {
     if (!result.judgement.reason.empty()) {
         line += " (" + result.judgement.reason + ")";
     }
-    return line + "\n";
+    line += "\n";
+    if (result.cause) {
+        line += fmt::format("           cause class {}: {}\n", validation::name_of(result.cause->cause),
+                            result.cause->summary);
+    }
+    return line;
 }
 
 /// Prints each scene's lines once all its comparisons are done, in the scenes' order.
@@ -168,6 +173,16 @@ void add_options(CLI::App& command, ValidateOptions& options) {
                     "the threads, and disturb each other's times")
         ->check(CLI::Range(1, 256))
         ->capture_default_str();
+    static const std::map<std::string, LayerUse> uses{
+        {"auto", LayerUse::automatic}, {"always", LayerUse::always}, {"never", LayerUse::never}};
+    command
+        .add_option_function<std::string>(
+            "--layers", [&options](const std::string& use) { options.layers = uses.at(use); },
+            "whether POV-Ray and Blender are asked what rays meet (object, depth, position, normal), too; "
+            "auto "
+            "(default): where a picture is over its budget, to tell the cause")
+        ->check(CLI::IsMember({"auto", "always", "never"}))
+        ->type_name("auto|always|never");
     command
         .add_option("--cache", options.cache,
                     "folder that keeps other renderers' pictures, or off; default: $XDG_CACHE_HOME/scc")
