@@ -131,9 +131,14 @@ Command povray_command(const RenderJob& job, const std::string& scene, const cha
                          fmt::format("+W{}", job.width * job.samples_per_axis),
                          fmt::format("+H{}", job.height * job.samples_per_axis),
                          "+FN16",
-                         "File_Gamma=1.0",
-                         "-A",
-                         "-D"};
+                         "File_Gamma=1.0"};
+    if (const auto& a = job.antialiasing)
+        command.arguments.insert(command.arguments.end(),
+                                 {fmt::format("+A{}", a->threshold), fmt::format("+AM{}", a->method), "-J",
+                                  fmt::format("+R{}", a->depth)});
+    else
+        command.arguments.emplace_back("-A");
+    command.arguments.emplace_back("-D");
     if (job.threads > 0)
         command.arguments.push_back(fmt::format("+WT{}", job.threads));
     if (job.no_bounding)
@@ -241,6 +246,21 @@ std::optional<std::string> find_opengl_program() {
     std::error_code error;
     const fs::path beside = fs::read_symlink("/proc/self/exe", error).parent_path() / "scc-opengl";
     return !error && fs::exists(beside, error) ? beside.string() : find_program("scc-opengl");
+}
+
+nlohmann::ordered_json to_json(const RenderTimes& times) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+    const auto add = [&json](const char* name, const std::optional<double>& seconds) {
+        if (seconds)
+            json[name] = *seconds;
+    };
+    add("start_up", times.start_up);
+    add("parse", times.parse);
+    add("bounding", times.bounding);
+    add("trace", times.trace);
+    add("saving", times.saving);
+    add("total", times.total);
+    return json;
 }
 
 double exposure_for(double brightest) {

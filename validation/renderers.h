@@ -2,6 +2,8 @@
 
 #include "runtime/image.h"
 
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -11,6 +13,13 @@
 namespace scc::validation {
 
 class RenderCache;
+
+/// POV-Ray's own supersampling: +A<threshold> +AM<method> -J +R<depth>.
+struct PovrayAntialiasing {
+    int method = 1; ///< 1: depth x depth samples and the centre, where neighbours differ; 2: recursive
+    int depth = 1;
+    double threshold = 0; ///< 0: everywhere
+};
 
 struct RenderJob {
     std::filesystem::path scene; ///< the exported `.pov` or `.py`
@@ -24,9 +33,10 @@ struct RenderJob {
     double timeout_seconds = 600;
     double brightest =
         1; ///< the reference's largest value; POV-Ray's file ends at 1, so its exposure follows
-    bool no_bounding = false;           ///< POV-Ray's -MB, for scenes beyond 1e6 from the origin
-    std::vector<std::string> beside;    ///< names of files beside the scene that it reads
-    const RenderCache* cache = nullptr; ///< null: it draws in any case
+    bool no_bounding = false;                       ///< POV-Ray's -MB, for scenes beyond 1e6 from the origin
+    std::optional<PovrayAntialiasing> antialiasing; ///< instead of `samples_per_axis`, which then is 1
+    std::vector<std::string> beside;                ///< names of files beside the scene that it reads
+    const RenderCache* cache = nullptr;             ///< null: it draws in any case
 };
 
 enum class RenderStatus { done, missing, failed, timed_out, interrupted };
@@ -40,6 +50,9 @@ struct RenderTimes {
     std::optional<double> saving;
     std::optional<double> total; ///< wall time of the process
 };
+
+/// What there is, by the members' names.
+nlohmann::ordered_json to_json(const RenderTimes& times);
 
 struct RenderResult {
     RenderStatus status = RenderStatus::failed;

@@ -62,21 +62,6 @@ Json text_or_null(const std::string& text) {
     return text.empty() ? Json(nullptr) : Json(text);
 }
 
-Json to_json(const RenderTimes& times) {
-    Json json = Json::object();
-    const auto add = [&json](const char* name, const std::optional<double>& seconds) {
-        if (seconds)
-            json[name] = *seconds;
-    };
-    add("start_up", times.start_up);
-    add("parse", times.parse);
-    add("bounding", times.bounding);
-    add("trace", times.trace);
-    add("saving", times.saving);
-    add("total", times.total);
-    return json;
-}
-
 Json to_json(const std::vector<LedgerRow>& ledger) {
     Json json = Json::array();
     for (const LedgerRow& row : ledger)
@@ -100,7 +85,7 @@ Json to_json(const RendererReport& renderer, const std::string& file) {
     for (const LayerDifference& layer : renderer.layers)
         json["layers"].push_back(validation::to_json(layer));
     json["cause"] = renderer.cause ? validation::to_json(*renderer.cause) : Json(nullptr);
-    json["times_s"] = to_json(renderer.times);
+    json["times_s"] = validation::to_json(renderer.times);
     json["from_cache"] = renderer.from_cache;
     json["file"] = text_or_null(file);
     json["ledger"] = to_json(renderer.ledger);
@@ -148,12 +133,15 @@ Json to_json(const Report& report) {
         entry["size"] = {scene.reference.width, scene.reference.height};
         entry["reference"] = {{"made_by", scene.reference_made_by},
                               {"file", text_or_null(files[i].reference)},
-                              {"times_s", to_json(scene.times)}};
+                              {"times_s", validation::to_json(scene.times)}};
         entry["renderers"] = Json::array();
         for (std::size_t k = 0; k < scene.renderers.size(); ++k)
             entry["renderers"].push_back(to_json(scene.renderers[k], files[i].renderers[k]));
         json["scenes"].push_back(entry);
     }
+    json["sweeps"] = Json::array();
+    for (const SweepScene& sweep : report.sweeps)
+        json["sweeps"].push_back(validation::to_json(sweep));
     return json;
 }
 

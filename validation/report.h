@@ -5,6 +5,7 @@
 #include "validation/cause.h"
 #include "validation/compare.h"
 #include "validation/renderers.h"
+#include "validation/sweep.h"
 
 #include <filesystem>
 #include <optional>
@@ -57,6 +58,7 @@ struct Report {
     std::string title = "scc validate";
     std::vector<std::pair<std::string, std::string>> versions; ///< program, version
     std::vector<SceneReport> scenes;
+    std::vector<SweepScene> sweeps;
 };
 
 struct ReportSummary {

@@ -27,6 +27,9 @@ figure { margin: 0; } figcaption { color: var(--dim); font-size: .9em; }
 figure img { width: 100%; image-rendering: pixelated; border: 1px solid var(--line); display: block; }
 pre { background: var(--soft); padding: .6rem; overflow-x: auto; max-height: 24rem; }
 .passed { color: var(--passed); } .failed { color: var(--failed); } .skipped { color: var(--skipped); }
+.plots { display: flex; flex-wrap: wrap; gap: 1rem; } .plot { width: 560px; max-width: 100%; }
+.plot text { font-size: 11px; fill: var(--ink); } .plot .tick { text-anchor: middle; fill: var(--dim); }
+.plot .grid { stroke: var(--line); }
 .verdict { font-weight: 600; } .dim { color: var(--dim); }
 )";
 
@@ -329,6 +332,9 @@ std::string to_html(const Report& report) {
             "is the largest of its block. SSIM is of the encoded luminance.</p>\n";
     for (std::size_t i = 0; i < report.scenes.size(); ++i)
         html += scene_html(report.scenes[i], i);
+    for (const SweepScene& sweep : report.sweeps)
+        html += "<section>\n<h2>Error against run time: " + escape_html(sweep.name) + "</h2>\n" +
+                to_html(sweep) + "</section>\n";
     return html + "</body>\n</html>\n";
 }
 

@@ -148,7 +148,8 @@ RendererReport run_exported(const Subject& subject, const std::string& name, int
     RendererReport result;
     result.renderer = name;
     const ScratchFolder folder;
-    const ExportedRun how{subject, *compiler::find_exporter(name), folder.path(), threads};
+    const ExportedRun how{subject,       *compiler::find_exporter(name), folder.path(), threads, {},
+                          &subject.cache};
     compiler::Ledger ledger;
     const ir::Scene& scene = subject.loaded.scene;
     validation::RenderResult run =
@@ -252,7 +253,8 @@ validation::RenderResult run_exported_scene(const ExportedRun& run, const ir::Sc
     for (const compiler::ExportFiles::File& one : beside.files) {
         job.beside.push_back(one.name);
     }
-    job.cache = &run.subject.cache;
+    job.cache = run.cache;
+    job.antialiasing = run.antialiasing;
     job.scene = file;
     job.folder = run.folder;
     job.width = settings.width;

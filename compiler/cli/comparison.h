@@ -22,6 +22,8 @@ struct ExportedRun {
     const compiler::Exporter& exporter;
     const std::filesystem::path& folder;
     int threads = 0;
+    std::optional<validation::PovrayAntialiasing> antialiasing{}; ///< instead of the settings' samples
+    const validation::RenderCache* cache = nullptr;               ///< null: it is drawn in any case
 };
 
 /// Exports the scene and has the other renderer draw it at these settings. `brightest`: of the picture.

@@ -91,7 +91,8 @@ std::optional<PositionRange> range_of(const runtime::AovImage& aovs) {
 class OtherLayers {
 public:
     OtherLayers(const Subject& subject, const std::string& renderer, int threads)
-        : subject_(subject), run_{subject, *compiler::find_exporter(renderer), folder_.path(), threads} {}
+        : subject_(subject),
+          run_{subject, *compiler::find_exporter(renderer), folder_.path(), threads, {}, &subject.cache} {}
 
     /// Nothing if one of the pictures fails.
     std::optional<Layers> draw(const PositionRange& range, bool with_objects) {

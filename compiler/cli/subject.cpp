@@ -54,7 +54,7 @@ runtime::RenderRequest with_deadline(const runtime::RenderRequest& request, doub
     return limited;
 }
 
-std::unique_ptr<Subject> prepare_subject(const ValidateOptions& options, const std::string& file) {
+std::unique_ptr<Subject> load_subject(const ValidateOptions& options, const std::string& file) {
     auto subject = std::make_unique<Subject>();
     subject->options = options.scene;
     subject->options.file = file;
@@ -67,15 +67,24 @@ std::unique_ptr<Subject> prepare_subject(const ValidateOptions& options, const s
         return subject;
     }
     subject->report.name = subject->loaded.scene.name;
+    subject->request = make_request(options.render, subject->loaded.scene.settings);
+    // Which all renderers can have.
+    subject->request.settings = with_plain_grid(subject->request.settings);
     try {
         subject->budgets = validation::read_scene_budgets(read_text_file(file));
-        subject->request = make_request(options.render, subject->loaded.scene.settings);
-        // Which all renderers can have.
-        subject->request.settings = with_plain_grid(subject->request.settings);
-        draw_reference(*subject);
     } catch (const validation::BudgetError& error) {
         subject->report.failure = fmt::format("{}:{}: {}", file, error.line, error.what());
         fmt::print(stderr, "{}:{}: error: {}\n", file, error.line, error.what());
+    }
+    return subject;
+}
+
+std::unique_ptr<Subject> prepare_subject(const ValidateOptions& options, const std::string& file) {
+    std::unique_ptr<Subject> subject = load_subject(options, file);
+    try {
+        if (subject->report.failure.empty()) {
+            draw_reference(*subject);
+        }
     } catch (const RenderTimedOut& error) {
         subject->report.failure = error.what();
         fmt::print(stderr, "scc: error: {}: {}\n", file, error.what());

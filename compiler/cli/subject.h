@@ -26,6 +26,7 @@ struct ValidateOptions {
     std::string cache;          ///< as RenderCache::from_option
     host::RenderOptions render; ///< size, samples, threads
     LayerUse layers = LayerUse::automatic;
+    bool sweep = false;
     int jobs = 1;
     double timeout_seconds = 1800;
 };
@@ -42,6 +43,8 @@ struct Subject {
     double brightest = 0; ///< of our picture
 };
 
+/// Loads. Where that fails, `report.failure` says why, and errors of the scene are printed.
+std::unique_ptr<Subject> load_subject(const ValidateOptions& options, const std::string& file);
 /// Loads and draws. Where that fails, `report.failure` says why, and errors of the scene are printed.
 std::unique_ptr<Subject> prepare_subject(const ValidateOptions& options, const std::string& file);
 

@@ -1,6 +1,7 @@
 #include "compiler/cli/commands.h"
 #include "compiler/cli/comparison.h"
 #include "compiler/cli/subject.h"
+#include "compiler/cli/sweep.h"
 #include "runtime/host/file.h"
 #include "validation/jobs.h"
 #include "validation/junit.h"
@@ -128,8 +129,47 @@ int exit_code(const validation::ReportSummary& summary) {
     return summary.skipped > 0 ? host::exit_environment : host::exit_fine;
 }
 
+std::string words(const std::optional<validation::SweepRatio>& ratio) {
+    return ratio ? fmt::format("{:.3g} ({:.3g} .. {:.3g})", ratio->median, ratio->least, ratio->most)
+                 : "none in common";
+}
+
+/// Each scene's reference, and how much longer others take to the same error.
+std::string sweep_lines(const validation::SweepScene& scene) {
+    std::string text = fmt::format("{}: {}\n", scene.name, scene.confirmation);
+    for (const validation::SweepSeries& ours : scene.series) {
+        for (const validation::SweepSeries& other : scene.series) {
+            if (!is_own(ours) || is_own(other)) {
+                continue;
+            }
+            text += fmt::format("  {:10} over {:18} to equal error: process {}, drawing {}\n", other.renderer,
+                                ours.renderer,
+                                words(equal_error_ratio(ours, other, &validation::RenderTimes::total)),
+                                words(equal_error_ratio(ours, other, &validation::RenderTimes::trace)));
+        }
+    }
+    return text;
+}
+
+int sweep(const ValidateOptions& options, const std::vector<std::string>& names) {
+    validation::Report all;
+    all.title = "scc validate --sweep";
+    all.versions.emplace_back("scc", SCC_VERSION);
+    bool complete = true;
+    all.sweeps = sweep_scenes(options, names, complete);
+    validation::write_report(all, options.report);
+    for (const validation::SweepScene& scene : all.sweeps) {
+        write_result("-", sweep_lines(scene));
+    }
+    write_result("-", fmt::format("report: {}/index.html\n", options.report));
+    return complete ? host::exit_fine : host::exit_scene;
+}
+
 int validate(const ValidateOptions& options) {
     const std::vector<std::string> names = renderers_of(options.against);
+    if (options.sweep) {
+        return sweep(options, names);
+    }
     const auto cache = validation::RenderCache::from_option(options.cache);
     Subjects subjects;
     for (const std::string& file : options.files) {
@@ -167,11 +207,17 @@ void add_options(CLI::App& command, ValidateOptions& options) {
     command.add_option("--junit", options.junit, "the verdicts as JUnit XML, for continuous integration")
         ->type_name("FILE.xml");
     add_render_options(command, options.render, RenderOptionSet::picture);
+    CLI::Option* sweeps = command.add_flag(
+        "--sweep", options.sweep,
+        "error against run time instead: 1, 4, 16, ... samples per pixel up to --samples (256) "
+        "against 4096 of ours in double, which POV-Ray confirms; --size is 96x72 if it is left "
+        "out");
     command
         .add_option("--jobs", options.jobs,
                     "how many comparisons, each with processes of its own, are under way at once; they share "
                     "the threads, and disturb each other's times")
         ->check(CLI::Range(1, 256))
+        ->excludes(sweeps)
         ->capture_default_str();
     static const std::map<std::string, LayerUse> uses{
         {"auto", LayerUse::automatic}, {"always", LayerUse::always}, {"never", LayerUse::never}};
