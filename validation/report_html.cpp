@@ -1,5 +1,6 @@
 #include "validation/embed.h"
 #include "validation/report.h"
+#include "validation/report_script.h"
 
 #include <fmt/core.h>
 
@@ -27,6 +28,12 @@ figure { margin: 0; } figcaption { color: var(--dim); font-size: .9em; }
 figure img { width: 100%; image-rendering: pixelated; border: 1px solid var(--line); display: block; }
 pre { background: var(--soft); padding: .6rem; overflow-x: auto; max-height: 24rem; }
 .passed { color: var(--passed); } .failed { color: var(--failed); } .skipped { color: var(--skipped); }
+.sortable tr:first-child th { cursor: pointer; } th[data-sorted=up]::after { content: " \\2191"; }
+th[data-sorted=down]::after { content: " \\2193"; }
+.viewer { margin: .6rem 0; } .bar { display: flex; gap: .6rem; align-items: center; flex-wrap: wrap; }
+.bar output { font-variant-numeric: tabular-nums; font-size: .9em; } .frame { overflow: auto; max-height: 45rem; }
+.frame canvas { image-rendering: pixelated; cursor: crosshair; } .heat b { display: inline-block; padding: 0 .8rem; }
+.values { display: none; } [hidden] { display: none !important; }
 .plots { display: flex; flex-wrap: wrap; gap: 1rem; } .plot { width: 560px; max-width: 100%; }
 .plot text { font-size: 11px; fill: var(--ink); } .plot .tick { text-anchor: middle; fill: var(--dim); }
 .plot .grid { stroke: var(--line); }
@@ -55,6 +62,11 @@ std::string row(const std::string& cells) {
 }
 std::string table(const std::string& rows) {
     return "<div class=\"scroll\"><table>\n" + rows + "</table></div>\n";
+}
+
+/// By clicks on the heads of its columns.
+std::string sortable(const std::string& rows) {
+    return "<div class=\"scroll\"><table class=\"sortable\">\n" + rows + "</table></div>\n";
 }
 
 std::string paragraph(const std::string& text) {
@@ -87,7 +99,7 @@ std::string overview(const Report& report) {
                         number_cell(renderer.metrics ? number(renderer.metrics->all.rmse) : "") +
                         number_cell(seconds(renderer.times.total)) +
                         cell(escape_html(renderer.judgement.reason)));
-    return table(rows);
+    return sortable(rows);
 }
 
 std::string versions_html(const Report& report) {
@@ -117,6 +129,46 @@ std::string figures(const SceneReport& scene, const RendererReport& renderer) {
                        Shrink::maximum, fmt::format("difference, amplified {} times", amplification));
     }
     return "<div class=\"figures\">\n" + html + "</div>\n";
+}
+
+/// Pictures in a viewer are at most so wide; what is larger is shrunk by a whole factor.
+constexpr int max_viewer_width = 320;
+
+std::string values_id(std::size_t scene) {
+    return fmt::format("values-{}", scene + 1);
+}
+
+/// The reference's numbers, once per scene.
+std::string reference_values(const SceneReport& scene, std::size_t index) {
+    if (scene.reference.pixels.empty())
+        return "";
+    return fmt::format("<div class=\"values\" id=\"{}\">{}</div>\n", values_id(index),
+                       half_floats(shrunk(in_color(scene.reference), max_viewer_width, Shrink::average), 1));
+}
+
+/// Signed, the largest of each block that becomes a pixel.
+runtime::Image signed_difference(const runtime::Image& reference, const runtime::Image& other, int block) {
+    runtime::Image result((reference.width + block - 1) / block, (reference.height + block - 1) / block);
+    for (int y = 0; y < reference.height; ++y)
+        for (int x = 0; x < reference.width; ++x)
+            for (int c = 0; c < 3; ++c) {
+                const float difference = other.at(x, y)[c] - reference.at(x, y)[c];
+                float& kept = result.at(x / block, y / block)[c];
+                kept = std::abs(difference) > std::abs(kept) || std::isnan(difference) ? difference : kept;
+            }
+    return result;
+}
+
+std::string viewer(const SceneReport& scene, std::size_t index, const RendererReport& renderer) {
+    if (!renderer.metrics || renderer.image.pixels.empty() || scene.reference.pixels.empty())
+        return "";
+    const int block = (scene.reference.width + max_viewer_width - 1) / max_viewer_width;
+    const runtime::Image difference =
+        signed_difference(in_color(scene.reference), in_color(renderer.image), block);
+    return fmt::format("<div class=\"viewer\" data-width=\"{}\" data-height=\"{}\" data-block=\"{}\" "
+                       "data-reference=\"{}\" data-difference=\"{}\"></div>\n",
+                       difference.width, difference.height, block, values_id(index),
+                       half_floats(difference, viewer_difference_scale));
 }
 
 std::string place(const Place& where) {
@@ -278,14 +330,14 @@ std::string cause_html(const RendererReport& renderer) {
            folded("evidence", table(rows), true);
 }
 
-std::string renderer_html(const SceneReport& scene, const RendererReport& renderer) {
+std::string renderer_html(const SceneReport& scene, std::size_t index, const RendererReport& renderer) {
     std::string html =
         fmt::format("<h3>{} {}</h3>\n", escape_html(renderer.renderer), verdict_html(renderer.judgement));
     html += paragraph(renderer.judgement.reason);
     if (renderer.budget)
         html += "<p class=\"dim\">" + escape_html(budget_text(*renderer.budget)) + "</p>\n";
     html += cause_html(renderer) + layers_html(renderer);
-    html += figures(scene, renderer);
+    html += figures(scene, renderer) + viewer(scene, index, renderer);
     if (!renderer.worst_pixel.empty())
         html += folded("the worst pixel", "<pre>" + escape_html(renderer.worst_pixel) + "</pre>\n",
                        renderer.judgement.verdict == Verdict::failed);
@@ -305,9 +357,9 @@ std::string scene_html(const SceneReport& scene, std::size_t index) {
     html += paragraph(scene.description);
     if (!scene.failure.empty())
         html += "<p class=\"failed\">" + escape_html(scene.failure) + "</p>\n";
-    html += ErrorTable(scene).html() + times_table(scene);
+    html += reference_values(scene, index) + ErrorTable(scene).html() + times_table(scene);
     for (const RendererReport& renderer : scene.renderers)
-        html += renderer_html(scene, renderer);
+        html += renderer_html(scene, index, renderer);
     return html + "</section>\n";
 }
 
@@ -335,6 +387,7 @@ std::string to_html(const Report& report) {
     for (const SweepScene& sweep : report.sweeps)
         html += "<section>\n<h2>Error against run time: " + escape_html(sweep.name) + "</h2>\n" +
                 to_html(sweep) + "</section>\n";
+    html += std::string("<script>\n") + report_script + "</script>\n";
     return html + "</body>\n</html>\n";
 }
 
