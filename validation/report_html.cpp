@@ -372,16 +372,19 @@ std::string to_html(const Report& report) {
                     "<meta name=\"viewport\" content=\"width=device-width\">\n<title>{0}</title>\n"
                     "<style>{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n",
                     escape_html(report.title), style);
-    html += fmt::format(
-        "<p>{} passed, {} failed, {} skipped. A skipped comparison was not made and does not count as "
-        "passed.</p>\n",
-        summary.passed, summary.failed, summary.skipped);
-    html += overview(report) + versions_html(report);
+    const bool compares = !report.scenes.empty() || report.sweeps.empty();
+    if (compares)
+        html += fmt::format(
+            "<p>{} passed, {} failed, {} skipped. A skipped comparison was not made and does not count as "
+            "passed.</p>\n",
+            summary.passed, summary.failed, summary.skipped);
+    html += (compares ? overview(report) : "") + versions_html(report);
     html += "<p class=\"dim\">Errors are absolute differences in linear light. Images are shown in sRGB, "
             "clamped to "
             "0..1 and at most 800 pixels wide; where a difference image is smaller than the image, each of "
             "its pixels "
-            "is the largest of its block. SSIM is of the encoded luminance.</p>\n";
+            "is the largest of its block. SSIM is of the encoded luminance. In a viewer "
+            "the reference's numbers and, by themselves, the differences have 11 bits.</p>\n";
     for (std::size_t i = 0; i < report.scenes.size(); ++i)
         html += scene_html(report.scenes[i], i);
     for (const SweepScene& sweep : report.sweeps)

@@ -28,7 +28,7 @@ function heat(error) {
 function element(parent, name, properties) {
   return parent.appendChild(Object.assign(document.createElement(name), properties));
 }
-function shown(values) { return values.map(v => v.toPrecision(5)).join(" "); }
+function shown(values) { return values.map(v => v.toPrecision(4)).join(" "); }
 
 function openViewer(viewer) {
   const width = +viewer.dataset.width, height = +viewer.dataset.height, block = +viewer.dataset.block;

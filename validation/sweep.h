@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-/// Error against run time: what renderers reach with more samples, or finer triangles, against one reference.
+/// Error against run time: what renderers reach with more samples against one reference.
 namespace scc::validation {
 
 /// One picture of a sweep.
 struct SweepPoint {
     std::string setting; ///< "4 x 4", "+AM2 +R3"
-    double quality = 0;  ///< the knob in numbers: samples per pixel, 1 / tessellation; 0: not to be told
+    double quality = 0;  ///< samples per pixel; 0: not to be told
     double error = 0;    ///< root mean square, linear light
     double max_error = 0;
     RenderTimes times{}; ///< the least of a few runs
@@ -23,7 +23,7 @@ struct SweepPoint {
 
 struct SweepSeries {
     std::string renderer; ///< "scc double", "pov"
-    std::string knob{};   ///< "samples per pixel", "1 / tessellation"
+    std::string knob{};   ///< "samples per pixel", "depth"
     std::vector<SweepPoint> points{};
     std::string failure{}; ///< why it ends early, or is empty
 };

@@ -179,9 +179,7 @@ std::string to_html(const SweepScene& scene) {
     html += Plot(scene, "RMSE over seconds of drawing", [](const SweepPoint& p) {
                 return p.times.trace.value_or(0);
             }).svg();
-    html += Plot(scene, "RMSE over samples per pixel, or 1 / tessellation", [](const SweepPoint& p) {
-                return p.quality;
-            }).svg();
+    html += Plot(scene, "RMSE over samples per pixel", [](const SweepPoint& p) { return p.quality; }).svg();
     html += "</div>\n";
     return html + ratios_table(scene) + orders_table(scene) + "<details><summary>all settings</summary>\n" +
            points_table(scene) + "</details>\n";

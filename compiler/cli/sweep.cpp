@@ -157,7 +157,7 @@ private:
     void add_series(const std::string& renderer, std::vector<SweepSeries>& all) {
         if (renderer == "native") {
             add_native(all);
-        } else if (renderer != "opengl") { // draws no shadows: it has no part in a sweep of rays
+        } else {
             all.push_back(over_samples(renderer, [&](int n) { return draw_other(renderer, n, {}); }));
         }
         if (renderer == "pov") {

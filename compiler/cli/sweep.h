@@ -5,8 +5,9 @@
 
 namespace scc::cli {
 
-/// Error and time of the renderers in `against` and of ourselves, scene by scene, one process at a time.
-/// Scenes that are wrong are reported and left out; `complete` becomes false. Throws Interrupted.
+/// Error and time of the renderers in `against` (pov, blender, native) and of ourselves, scene by scene, one
+/// process at a time. Scenes that are wrong are reported and left out; `complete` becomes false. Throws
+/// Interrupted.
 std::vector<validation::SweepScene> sweep_scenes(const ValidateOptions& options,
                                                  const std::vector<std::string>& against, bool& complete);
 

@@ -152,6 +152,9 @@ std::string sweep_lines(const validation::SweepScene& scene) {
 }
 
 int sweep(const ValidateOptions& options, const std::vector<std::string>& names) {
+    if (std::find(names.begin(), names.end(), "opengl") != names.end()) {
+        throw host::UsageError("--sweep draws by rays, which OpenGL does not");
+    }
     validation::Report all;
     all.title = "scc validate --sweep";
     all.versions.emplace_back("scc", SCC_VERSION);
@@ -204,14 +207,15 @@ void add_options(CLI::App& command, ValidateOptions& options) {
     command.add_option("--report", options.report, "folder for report.json, index.html and the pictures")
         ->required()
         ->type_name("DIR");
-    command.add_option("--junit", options.junit, "the verdicts as JUnit XML, for continuous integration")
-        ->type_name("FILE.xml");
-    add_render_options(command, options.render, RenderOptionSet::picture);
     CLI::Option* sweeps = command.add_flag(
         "--sweep", options.sweep,
         "error against run time instead: 1, 4, 16, ... samples per pixel up to --samples (256) "
         "against 4096 of ours in double, which POV-Ray confirms; --size is 96x72 if it is left "
         "out");
+    command.add_option("--junit", options.junit, "the verdicts as JUnit XML, for continuous integration")
+        ->excludes(sweeps)
+        ->type_name("FILE.xml");
+    add_render_options(command, options.render, RenderOptionSet::picture);
     command
         .add_option("--jobs", options.jobs,
                     "how many comparisons, each with processes of its own, are under way at once; they share "
@@ -228,6 +232,7 @@ void add_options(CLI::App& command, ValidateOptions& options) {
             "auto "
             "(default): where a picture is over its budget, to tell the cause")
         ->check(CLI::IsMember({"auto", "always", "never"}))
+        ->excludes(sweeps)
         ->type_name("auto|always|never");
     command
         .add_option("--cache", options.cache,
