@@ -1,7 +1,6 @@
 #pragma once
 
-#include "runtime/accel/build.h"
-#include "runtime/raycast.h"
+#include "runtime/test/tracing.h"
 
 #include <cmath>
 #include <map>

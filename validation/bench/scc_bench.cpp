@@ -1,7 +1,12 @@
+#include "runtime/host/image_file.h"
+#include "runtime/host/read_image.h"
 #include "validation/bench/contest.h"
 #include "validation/bench/frontend.h"
+#include "validation/bench/holes.h"
 #include "validation/bench/nff.h"
 #include "validation/bench/own_scenes.h"
+#include "validation/compare.h"
+#include "validation/renderers.h"
 #include "validation/subprocess.h"
 
 #include <CLI/CLI.hpp>
@@ -23,6 +28,9 @@ namespace fs = std::filesystem;
 namespace validation = scc::validation;
 using nlohmann::json;
 
+const std::vector<std::string> all_rows{"kernels",  "mirrors",  "spd",   "gains",
+                                        "frontend", "implicit", "raster"};
+
 struct Options {
     fs::path out = "bench";
     fs::path scc = SCC_BINARY_DIR "/scc";
@@ -31,7 +39,7 @@ struct Options {
     fs::path data = SCC_BENCH_DATA;
     fs::path examples = SCC_SOURCE_DIR "/examples";
     fs::path scenes = SCC_SOURCE_DIR "/validation/bench/scenes";
-    std::vector<std::string> rows{"kernels", "mirrors", "spd", "gains", "frontend", "raster"};
+    std::vector<std::string> rows = all_rows;
     std::vector<int> threads{1, 2};
     int repeat = 5;
 
@@ -77,6 +85,9 @@ public:
         }
         if (options_.wants("frontend")) {
             frontend();
+        }
+        if (options_.wants("implicit")) {
+            implicit();
         }
         if (options_.wants("raster")) {
             raster();
@@ -424,6 +435,58 @@ private:
             fmt::format("{} spheres{}", count, figures), 1, target);
     }
 
+    // --- implicit surfaces ---
+
+    /// A thin wall, drawn by POV-Ray with the bound on the slope that the export derives, and with lower ones
+    /// as somebody who tries for speed would guess them.
+    void implicit() {
+        const char* line = "isosurface with our derived bound, POV-Ray";
+        Scene scene = prepare("thin_gyroid", options_.scenes / "thin_gyroid.scn");
+        scene.width = 320;
+        scene.height = 240;
+        const std::string problem = !scene.program_missing.empty()        ? scene.program_missing
+                                    : !scene.pov_missing.empty()          ? scene.pov_missing
+                                    : !validation::find_program("povray") ? "POV-Ray is not installed"
+                                                                          : "";
+        if (!problem.empty()) {
+            add(skipped(problem), line, "", options_.threads.front(), isosurface_target);
+            return;
+        }
+        for (const int threads : options_.threads) {
+            const PictureJob job{.folder = work_,
+                                 .threads = threads,
+                                 .width = scene.width,
+                                 .height = scene.height,
+                                 .arguments = {"--precision", "double"},
+                                 .image = "thin_gyroid.exr"};
+            draw_with_scc(fs::absolute(options_.scc), scene.scn, job);
+            const scc::runtime::Image ours = scc::host::read_image((work_ / job.image).string());
+            std::vector<scc::runtime::Image> pictures{ours};
+            std::ifstream file(scene.pov);
+            const std::string text{std::istreambuf_iterator<char>(file), {}};
+            for (const double share : {1.0, 0.25, 0.125}) {
+                const double bound = share * max_gradient_of(text);
+                Scene other = scene;
+                other.pov = work_ / fmt::format("thin_gyroid_{:.0f}.pov", 1000 * share);
+                std::ofstream(other.pov) << with_max_gradient(text, bound);
+                Row row = compare(draw_all(other, threads), program_name, povray_name, &Runs::trace);
+                const scc::runtime::Image theirs =
+                    picture_of(other.pov, job, validation::brightest_value(ours), row.skipped);
+                if (row.skipped.empty()) {
+                    pictures.push_back(theirs);
+                    row.facts["difference"] = to_json(validation::compare(ours, theirs));
+                    row.detail += fmt::format(
+                        "; max_gradient {:.3g}, {} of {} pixels differ by more than 1e-3", bound,
+                        validation::compare(ours, theirs).all.above(1e-3), ours.width * ours.height);
+                }
+                add(std::move(row), share == 1 ? line : "isosurface with a guessed bound, POV-Ray", "",
+                    threads, share == 1 ? std::optional(isosurface_target) : std::nullopt);
+            }
+            scc::host::write_image((work_ / "thin_gyroid_all.png").string(), side_by_side(pictures));
+        }
+    }
+    static constexpr Target isosurface_target{10, 30};
+
     // --- the Standard Procedural Databases and scenes like them ---
 
     void spd() {
@@ -586,9 +649,9 @@ int main(int argc, char** argv) {
     CLI::App app{"Compares scc with Embree, POV-Ray and Tachyon and writes bench.json and bench.md."};
     app.add_option("--out", options.out, "Folder for the tables; pictures and scenes go to its work/")
         ->capture_default_str();
-    app.add_option("--rows", options.rows, "Of kernels, mirrors, spd, gains, frontend, raster")
+    app.add_option("--rows", options.rows, fmt::format("Of {}", fmt::join(all_rows, ", ")))
         ->delimiter(',')
-        ->check(CLI::IsMember({"kernels", "mirrors", "spd", "gains", "frontend", "raster"}));
+        ->check(CLI::IsMember(all_rows));
     app.add_option("--threads", options.threads, "Numbers of threads")->delimiter(',')->capture_default_str();
     app.add_option("--repeat", options.repeat, "Repetitions")
         ->check(CLI::PositiveNumber)

@@ -30,18 +30,17 @@ protected:
 // digits than Blender has.
 INSTANTIATE_TEST_SUITE_P(
     All, Examples,
-    testing::Values(Example{"lecture", "pov,blender,native"}, Example{"mesh", "pov,blender"},
-                    Example{"transforms", "pov,blender"}, Example{"lights", "pov,blender"},
-                    Example{"mirrors", "pov,blender"}, Example{"stage", "pov,blender"},
-                    Example{"rings", "pov"}, Example{"quadrics", "pov", false},
-                    Example{"landscape", "pov,blender"}, Example{"textures", "pov,blender"},
-                    Example{"bump", "pov", false}, Example{"csg", "pov,blender"},
-                    Example{"cutaway", "pov", false}, Example{"glass", "pov", false},
-                    Example{"implicit", "pov,blender"}, Example{"lattice", "pov,blender"},
-                    Example{"spectra", "pov"}, Example{"panorama", "pov,blender"}, Example{"lens", "native"},
-                    Example{"zone_plate", "pov", false}, Example{"shading", "opengl", false},
-                    Example{"highlight", "opengl", false}, Example{"quad_split", "opengl", false},
-                    Example{"lines", "native", false}),
+    testing::Values(
+        Example{"lecture", "pov,blender,native"}, Example{"mesh", "pov,blender"},
+        Example{"transforms", "pov,blender"}, Example{"lights", "pov,blender"},
+        Example{"mirrors", "pov,blender"}, Example{"stage", "pov,blender"}, Example{"rings", "pov"},
+        Example{"quadrics", "pov", false}, Example{"landscape", "pov,blender"},
+        Example{"textures", "pov,blender"}, Example{"bump", "pov", false}, Example{"csg", "pov,blender"},
+        Example{"cutaway", "pov", false}, Example{"glass", "pov", false}, Example{"shapes", "pov", false},
+        Example{"implicit", "pov,blender"}, Example{"lattice", "pov,blender"}, Example{"spectra", "pov"},
+        Example{"panorama", "pov,blender"}, Example{"lens", "native"}, Example{"zone_plate", "pov", false},
+        Example{"shading", "opengl", false}, Example{"highlight", "opengl", false},
+        Example{"quad_split", "opengl", false}, Example{"lines", "native", false}),
     [](const auto& row) { return std::string(row.param.name); });
 
 TEST_P(Examples, CheckWithoutAWarning) {
