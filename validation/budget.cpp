@@ -75,6 +75,10 @@ std::optional<Budget> budget_for(const std::string& renderer, int width, int hei
     return budget;
 }
 
+std::size_t pixels_of_base(int count, int width, int height) {
+    return scaled(count, static_cast<double>(width) * height);
+}
+
 Budget with_refined_meshes(Budget budget, int width, int height, int samples_per_axis) {
     // Of 640 x 480 pixels; measured are 84 to 216.
     constexpr double more_above_1e3 = 400, more_outliers = 600;

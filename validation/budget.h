@@ -30,6 +30,9 @@ struct Budget {
 std::optional<Budget> budget_for(const std::string& renderer, int width, int height, int samples_per_axis = 1,
                                  double exposure = 1);
 
+/// A count that is stated per 640 x 480 pixels, for a picture of this size; never below itself.
+std::size_t pixels_of_base(int count, int width, int height);
+
 /// The same for a picture with surfaces that the renderer got as meshes refined to a fraction of a pixel.
 Budget with_refined_meshes(Budget budget, int width, int height, int samples_per_axis = 1);
 

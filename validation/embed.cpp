@@ -30,6 +30,23 @@ void shrink_block(const runtime::Image& image, int x0, int y0, int n, Shrink how
                    [scale](double sum) { return static_cast<float>(sum * scale); });
 }
 
+/// Rounded to nearest; IEEE 754 binary16.
+std::uint16_t half_of(double value) {
+    constexpr double largest = 65504;
+    constexpr double least_normal = 0x1p-14;
+    const unsigned sign = std::signbit(value) ? 0x8000U : 0U;
+    const double size = std::abs(value);
+    if (!(size <= largest))
+        return static_cast<std::uint16_t>(sign | 0x7c00U);
+    if (size < least_normal)
+        return static_cast<std::uint16_t>(sign | static_cast<unsigned>(std::lround(size * 0x1p24)));
+    int exponent = 0;
+    const double mantissa = std::frexp(size, &exponent); // 0.5 .. 1
+    // A mantissa that is rounded up to 2048 carries into the exponent.
+    const auto bits = static_cast<unsigned>(std::lround(mantissa * 2048)) - 1024U;
+    return static_cast<std::uint16_t>(sign | ((static_cast<unsigned>(exponent + 14) << 10) + bits));
+}
+
 } // namespace
 
 std::string escape_html(std::string_view text) {
@@ -84,6 +101,17 @@ runtime::Image shrunk(const runtime::Image& image, int max_width, Shrink how) {
 
 std::string data_uri(const runtime::Image& image, Shrink how) {
     return "data:image/png;base64," + base64(host::encode_png(shrunk(image, max_embedded_width, how)));
+}
+
+std::string half_floats(const runtime::Image& image, double scale) {
+    std::string bytes;
+    bytes.reserve(2 * image.pixels.size());
+    for (const float value : image.pixels) {
+        const std::uint16_t half = half_of(static_cast<double>(value) * scale);
+        bytes += static_cast<char>(half & 0xff);
+        bytes += static_cast<char>(half >> 8);
+    }
+    return base64(bytes);
 }
 
 } // namespace scc::validation

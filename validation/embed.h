@@ -25,4 +25,8 @@ runtime::Image shrunk(const runtime::Image& image, int max_width, Shrink how);
 /// "data:image/png;base64,..." of the image shrunk to 800 pixels.
 std::string data_uri(const runtime::Image& image, Shrink how);
 
+/// The values times `scale` as base64 of 16-bit floats, little-endian, rows from the top; what is too large
+/// or not finite is infinite.
+std::string half_floats(const runtime::Image& image, double scale);
+
 } // namespace scc::validation

@@ -2,6 +2,7 @@
 
 #include "runtime/host/read_image.h"
 #include "validation/compare.h"
+#include "validation/render_cache.h"
 #include "validation/renderer_output.h"
 #include "validation/subprocess.h"
 
@@ -130,9 +131,14 @@ Command povray_command(const RenderJob& job, const std::string& scene, const cha
                          fmt::format("+W{}", job.width * job.samples_per_axis),
                          fmt::format("+H{}", job.height * job.samples_per_axis),
                          "+FN16",
-                         "File_Gamma=1.0",
-                         "-A",
-                         "-D"};
+                         "File_Gamma=1.0"};
+    if (const auto& a = job.antialiasing)
+        command.arguments.insert(command.arguments.end(),
+                                 {fmt::format("+A{}", a->threshold), fmt::format("+AM{}", a->method), "-J",
+                                  fmt::format("+R{}", a->depth)});
+    else
+        command.arguments.emplace_back("-A");
+    command.arguments.emplace_back("-D");
     if (job.threads > 0)
         command.arguments.push_back(fmt::format("+WT{}", job.threads));
     if (job.no_bounding)
@@ -173,34 +179,29 @@ std::string version_line(const std::string& text, const std::string& name) {
     return name;
 }
 
-} // namespace
-
-std::optional<std::string> find_opengl_program() {
-    std::error_code error;
-    const fs::path beside = fs::read_symlink("/proc/self/exe", error).parent_path() / "scc-opengl";
-    return !error && fs::exists(beside, error) ? beside.string() : find_program("scc-opengl");
+/// A renderer's version is asked for once.
+const std::string& known_version(const char* program) {
+    static const std::string povray = povray_version().value_or("");
+    static const std::string blender = blender_version().value_or("");
+    return program == std::string_view("povray") ? povray : blender;
 }
 
-double exposure_for(double brightest) {
-    return brightest > 1 && std::isfinite(brightest) ? std::exp2(-std::ceil(std::log2(brightest))) : 1;
+/// What the cache has for the command, else what `draw` makes of it, which is then kept.
+template <class Draw>
+RenderResult cached(const RenderJob& job, const Command& command, const Draw& draw) {
+    if (job.cache == nullptr || !job.cache->keeps())
+        return draw();
+    const std::string key = render_key(job, command, known_version(command.program.c_str()));
+    if (std::optional<RenderResult> kept = job.cache->find(key))
+        return std::move(*kept);
+    RenderResult result = draw();
+    job.cache->store(key, result);
+    return result;
 }
 
-double brightest_value(const runtime::Image& image) {
-    float brightest = 0;
-    for (const float value : image.pixels)
-        if (std::isfinite(value))
-            brightest = std::max(brightest, value);
-    return static_cast<double>(brightest);
-}
-
-RenderResult render_with_povray(const RenderJob& job) {
-    constexpr const char* image = "povray.png";
-    if (!find_program("povray"))
-        return missing("POV-Ray");
-    forget_old_image(job, image);
+RenderResult run_povray(const RenderJob& job, const Command& command, const char* image, double exposure) {
     RenderResult result;
-    result.exposure = exposure_for(job.brightest);
-    const Command command = povray_command(job, bring_scene(job, "scene.pov"), image, result.exposure);
+    result.exposure = exposure;
     const ProcessResult process = run(command);
     const PovrayOutput output = read_povray_output(process.err);
     result.command = command_line(command);
@@ -222,13 +223,8 @@ RenderResult render_with_povray(const RenderJob& job) {
     return result;
 }
 
-RenderResult render_with_blender(const RenderJob& job) {
-    constexpr const char* image = "blender.exr";
-    if (!find_program("blender"))
-        return missing("Blender");
-    forget_old_image(job, image);
+RenderResult run_blender(const RenderJob& job, const Command& command, const char* image) {
     RenderResult result;
-    const Command command = blender_command(job, bring_scene(job, "scene.py"), image);
     const ProcessResult process = run(command);
     const BlenderOutput output = read_blender_output(process.out, process.err);
     result.command = command_line(command);
@@ -242,6 +238,60 @@ RenderResult render_with_blender(const RenderJob& job) {
     if (result.status == RenderStatus::done)
         take_image(result, job, image, false);
     return result;
+}
+
+} // namespace
+
+std::optional<std::string> find_opengl_program() {
+    std::error_code error;
+    const fs::path beside = fs::read_symlink("/proc/self/exe", error).parent_path() / "scc-opengl";
+    return !error && fs::exists(beside, error) ? beside.string() : find_program("scc-opengl");
+}
+
+nlohmann::ordered_json to_json(const RenderTimes& times) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+    const auto add = [&json](const char* name, const std::optional<double>& seconds) {
+        if (seconds)
+            json[name] = *seconds;
+    };
+    add("start_up", times.start_up);
+    add("parse", times.parse);
+    add("bounding", times.bounding);
+    add("trace", times.trace);
+    add("saving", times.saving);
+    add("total", times.total);
+    return json;
+}
+
+double exposure_for(double brightest) {
+    return brightest > 1 && std::isfinite(brightest) ? std::exp2(-std::ceil(std::log2(brightest))) : 1;
+}
+
+double brightest_value(const runtime::Image& image) {
+    float brightest = 0;
+    for (const float value : image.pixels)
+        if (std::isfinite(value))
+            brightest = std::max(brightest, value);
+    return static_cast<double>(brightest);
+}
+
+RenderResult render_with_povray(const RenderJob& job) {
+    constexpr const char* image = "povray.png";
+    if (!find_program("povray"))
+        return missing("POV-Ray");
+    forget_old_image(job, image);
+    const double exposure = exposure_for(job.brightest);
+    const Command command = povray_command(job, bring_scene(job, "scene.pov"), image, exposure);
+    return cached(job, command, [&] { return run_povray(job, command, image, exposure); });
+}
+
+RenderResult render_with_blender(const RenderJob& job) {
+    constexpr const char* image = "blender.exr";
+    if (!find_program("blender"))
+        return missing("Blender");
+    forget_old_image(job, image);
+    const Command command = blender_command(job, bring_scene(job, "scene.py"), image);
+    return cached(job, command, [&] { return run_blender(job, command, image); });
 }
 
 std::optional<std::string> povray_version() {

@@ -2,6 +2,8 @@
 
 #include "runtime/image.h"
 
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -9,6 +11,15 @@
 
 /// Other renderers, run on exported scenes.
 namespace scc::validation {
+
+class RenderCache;
+
+/// POV-Ray's own supersampling: +A<threshold> +AM<method> -J +R<depth>.
+struct PovrayAntialiasing {
+    int method = 1; ///< 1: depth x depth samples and the centre, where neighbours differ; 2: recursive
+    int depth = 1;
+    double threshold = 0; ///< 0: everywhere
+};
 
 struct RenderJob {
     std::filesystem::path scene; ///< the exported `.pov` or `.py`
@@ -22,7 +33,10 @@ struct RenderJob {
     double timeout_seconds = 600;
     double brightest =
         1; ///< the reference's largest value; POV-Ray's file ends at 1, so its exposure follows
-    bool no_bounding = false; ///< POV-Ray's -MB, for scenes beyond 1e6 from the origin
+    bool no_bounding = false;                       ///< POV-Ray's -MB, for scenes beyond 1e6 from the origin
+    std::optional<PovrayAntialiasing> antialiasing; ///< instead of `samples_per_axis`, which then is 1
+    std::vector<std::string> beside;                ///< names of files beside the scene that it reads
+    const RenderCache* cache = nullptr;             ///< null: it draws in any case
 };
 
 enum class RenderStatus { done, missing, failed, timed_out, interrupted };
@@ -37,6 +51,9 @@ struct RenderTimes {
     std::optional<double> total; ///< wall time of the process
 };
 
+/// What there is, by the members' names.
+nlohmann::ordered_json to_json(const RenderTimes& times);
+
 struct RenderResult {
     RenderStatus status = RenderStatus::failed;
     std::string reason; ///< why there is no image; empty when done
@@ -45,8 +62,9 @@ struct RenderResult {
     double exposure = 1; ///< the factor that the file was drawn with; already divided out of the image
     RenderTimes times;
     std::vector<std::string> warnings;
-    std::string log;     ///< the renderer's talk, without its progress lines
-    std::string command; ///< as one could type it in the folder
+    std::string log;         ///< the renderer's talk, without its progress lines
+    std::string command;     ///< as one could type it in the folder
+    bool from_cache = false; ///< drawn and timed at some earlier time
 };
 
 /// povray +Iscene.pov +Oimage.png +W640 +H480 +FN16 File_Gamma=1.0 -A -D [+WT2] [-MB]

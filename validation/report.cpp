@@ -62,21 +62,6 @@ Json text_or_null(const std::string& text) {
     return text.empty() ? Json(nullptr) : Json(text);
 }
 
-Json to_json(const RenderTimes& times) {
-    Json json = Json::object();
-    const auto add = [&json](const char* name, const std::optional<double>& seconds) {
-        if (seconds)
-            json[name] = *seconds;
-    };
-    add("start_up", times.start_up);
-    add("parse", times.parse);
-    add("bounding", times.bounding);
-    add("trace", times.trace);
-    add("saving", times.saving);
-    add("total", times.total);
-    return json;
-}
-
 Json to_json(const std::vector<LedgerRow>& ledger) {
     Json json = Json::array();
     for (const LedgerRow& row : ledger)
@@ -96,7 +81,12 @@ Json to_json(const RendererReport& renderer, const std::string& file) {
     json["reason"] = text_or_null(renderer.judgement.reason);
     json["budget"] = renderer.budget ? validation::to_json(*renderer.budget) : Json(nullptr);
     json["metrics"] = renderer.metrics ? validation::to_json(*renderer.metrics) : Json(nullptr);
-    json["times_s"] = to_json(renderer.times);
+    json["layers"] = Json::array();
+    for (const LayerDifference& layer : renderer.layers)
+        json["layers"].push_back(validation::to_json(layer));
+    json["cause"] = renderer.cause ? validation::to_json(*renderer.cause) : Json(nullptr);
+    json["times_s"] = validation::to_json(renderer.times);
+    json["from_cache"] = renderer.from_cache;
     json["file"] = text_or_null(file);
     json["ledger"] = to_json(renderer.ledger);
     json["warnings"] = renderer.warnings;
@@ -113,12 +103,14 @@ void write_exr(const runtime::Image& image, const fs::path& folder, const std::s
 
 ReportSummary summarize(const Report& report) {
     ReportSummary summary;
-    for (const SceneReport& scene : report.scenes)
+    for (const SceneReport& scene : report.scenes) {
+        summary.broken += !scene.failure.empty();
         for (const RendererReport& renderer : scene.renderers) {
             summary.passed += renderer.judgement.verdict == Verdict::passed;
             summary.failed += renderer.judgement.verdict == Verdict::failed;
             summary.skipped += renderer.judgement.verdict == Verdict::skipped;
         }
+    }
     return summary;
 }
 
@@ -129,20 +121,27 @@ Json to_json(const Report& report) {
     json["versions"] = Json::object();
     for (const auto& [program, version] : report.versions)
         json["versions"][program] = version;
-    json["summary"] = {{"passed", summary.passed}, {"failed", summary.failed}, {"skipped", summary.skipped}};
+    json["summary"] = {{"passed", summary.passed},
+                       {"failed", summary.failed},
+                       {"skipped", summary.skipped},
+                       {"broken", summary.broken}};
     json["scenes"] = Json::array();
     for (std::size_t i = 0; i < report.scenes.size(); ++i) {
         const SceneReport& scene = report.scenes[i];
         Json entry{{"name", scene.name}, {"description", scene.description}};
+        entry["failure"] = text_or_null(scene.failure);
         entry["size"] = {scene.reference.width, scene.reference.height};
         entry["reference"] = {{"made_by", scene.reference_made_by},
                               {"file", text_or_null(files[i].reference)},
-                              {"times_s", to_json(scene.times)}};
+                              {"times_s", validation::to_json(scene.times)}};
         entry["renderers"] = Json::array();
         for (std::size_t k = 0; k < scene.renderers.size(); ++k)
             entry["renderers"].push_back(to_json(scene.renderers[k], files[i].renderers[k]));
         json["scenes"].push_back(entry);
     }
+    json["sweeps"] = Json::array();
+    for (const SweepScene& sweep : report.sweeps)
+        json["sweeps"].push_back(validation::to_json(sweep));
     return json;
 }
 

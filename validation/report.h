@@ -2,8 +2,10 @@
 
 #include "runtime/image.h"
 #include "validation/budget.h"
+#include "validation/cause.h"
 #include "validation/compare.h"
 #include "validation/renderers.h"
+#include "validation/sweep.h"
 
 #include <filesystem>
 #include <optional>
@@ -32,10 +34,13 @@ struct RendererReport {
     std::optional<Budget> budget;
     std::optional<Metrics> metrics;
     RenderTimes times;
-    runtime::Image image; ///< empty if there is none
+    bool from_cache = false; ///< drawn and timed at some earlier time
+    runtime::Image image;    ///< empty if there is none
     std::vector<LedgerRow> ledger;
     std::vector<std::string> warnings;
-    std::string worst_pixel; ///< how our renderer explains the worst pixel, as text
+    std::vector<LayerDifference> layers; ///< empty: not compared
+    std::optional<Cause> cause;          ///< of a failure
+    std::string worst_pixel;             ///< how our renderer explains the worst pixel, as text
     std::string log;
 };
 
@@ -46,18 +51,21 @@ struct SceneReport {
     std::string reference_made_by; ///< "scc render --precision double"
     RenderTimes times;             ///< of the reference
     std::vector<RendererReport> renderers;
+    std::string failure; ///< why it could not be drawn by ourselves; empty if it was
 };
 
 struct Report {
     std::string title = "scc validate";
     std::vector<std::pair<std::string, std::string>> versions; ///< program, version
     std::vector<SceneReport> scenes;
+    std::vector<SweepScene> sweeps;
 };
 
 struct ReportSummary {
     std::size_t passed = 0;
     std::size_t failed = 0;
     std::size_t skipped = 0;
+    std::size_t broken = 0; ///< scenes that we could not draw ourselves
 };
 
 ReportSummary summarize(const Report& report);

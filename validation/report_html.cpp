@@ -1,5 +1,6 @@
 #include "validation/embed.h"
 #include "validation/report.h"
+#include "validation/report_script.h"
 
 #include <fmt/core.h>
 
@@ -27,6 +28,15 @@ figure { margin: 0; } figcaption { color: var(--dim); font-size: .9em; }
 figure img { width: 100%; image-rendering: pixelated; border: 1px solid var(--line); display: block; }
 pre { background: var(--soft); padding: .6rem; overflow-x: auto; max-height: 24rem; }
 .passed { color: var(--passed); } .failed { color: var(--failed); } .skipped { color: var(--skipped); }
+.sortable tr:first-child th { cursor: pointer; } th[data-sorted=up]::after { content: " \\2191"; }
+th[data-sorted=down]::after { content: " \\2193"; }
+.viewer { margin: .6rem 0; } .bar { display: flex; gap: .6rem; align-items: center; flex-wrap: wrap; }
+.bar output { font-variant-numeric: tabular-nums; font-size: .9em; } .frame { overflow: auto; max-height: 45rem; }
+.frame canvas { image-rendering: pixelated; cursor: crosshair; } .heat b { display: inline-block; padding: 0 .8rem; }
+.values { display: none; } [hidden] { display: none !important; }
+.plots { display: flex; flex-wrap: wrap; gap: 1rem; } .plot { width: 560px; max-width: 100%; }
+.plot text { font-size: 11px; fill: var(--ink); } .plot .tick { text-anchor: middle; fill: var(--dim); }
+.plot .grid { stroke: var(--line); }
 .verdict { font-weight: 600; } .dim { color: var(--dim); }
 )";
 
@@ -52,6 +62,11 @@ std::string row(const std::string& cells) {
 }
 std::string table(const std::string& rows) {
     return "<div class=\"scroll\"><table>\n" + rows + "</table></div>\n";
+}
+
+/// By clicks on the heads of its columns.
+std::string sortable(const std::string& rows) {
+    return "<div class=\"scroll\"><table class=\"sortable\">\n" + rows + "</table></div>\n";
 }
 
 std::string paragraph(const std::string& text) {
@@ -84,7 +99,7 @@ std::string overview(const Report& report) {
                         number_cell(renderer.metrics ? number(renderer.metrics->all.rmse) : "") +
                         number_cell(seconds(renderer.times.total)) +
                         cell(escape_html(renderer.judgement.reason)));
-    return table(rows);
+    return sortable(rows);
 }
 
 std::string versions_html(const Report& report) {
@@ -114,6 +129,46 @@ std::string figures(const SceneReport& scene, const RendererReport& renderer) {
                        Shrink::maximum, fmt::format("difference, amplified {} times", amplification));
     }
     return "<div class=\"figures\">\n" + html + "</div>\n";
+}
+
+/// Pictures in a viewer are at most so wide; what is larger is shrunk by a whole factor.
+constexpr int max_viewer_width = 320;
+
+std::string values_id(std::size_t scene) {
+    return fmt::format("values-{}", scene + 1);
+}
+
+/// The reference's numbers, once per scene.
+std::string reference_values(const SceneReport& scene, std::size_t index) {
+    if (scene.reference.pixels.empty())
+        return "";
+    return fmt::format("<div class=\"values\" id=\"{}\">{}</div>\n", values_id(index),
+                       half_floats(shrunk(in_color(scene.reference), max_viewer_width, Shrink::average), 1));
+}
+
+/// Signed, the largest of each block that becomes a pixel.
+runtime::Image signed_difference(const runtime::Image& reference, const runtime::Image& other, int block) {
+    runtime::Image result((reference.width + block - 1) / block, (reference.height + block - 1) / block);
+    for (int y = 0; y < reference.height; ++y)
+        for (int x = 0; x < reference.width; ++x)
+            for (int c = 0; c < 3; ++c) {
+                const float difference = other.at(x, y)[c] - reference.at(x, y)[c];
+                float& kept = result.at(x / block, y / block)[c];
+                kept = std::abs(difference) > std::abs(kept) || std::isnan(difference) ? difference : kept;
+            }
+    return result;
+}
+
+std::string viewer(const SceneReport& scene, std::size_t index, const RendererReport& renderer) {
+    if (!renderer.metrics || renderer.image.pixels.empty() || scene.reference.pixels.empty())
+        return "";
+    const int block = (scene.reference.width + max_viewer_width - 1) / max_viewer_width;
+    const runtime::Image difference =
+        signed_difference(in_color(scene.reference), in_color(renderer.image), block);
+    return fmt::format("<div class=\"viewer\" data-width=\"{}\" data-height=\"{}\" data-block=\"{}\" "
+                       "data-reference=\"{}\" data-difference=\"{}\"></div>\n",
+                       difference.width, difference.height, block, values_id(index),
+                       half_floats(difference, viewer_difference_scale));
 }
 
 std::string place(const Place& where) {
@@ -210,7 +265,8 @@ std::string times_table(const SceneReport& scene) {
                            "<th>saving</th><th>total</th>");
     rows += times_row("reference", scene.times);
     for (const RendererReport& renderer : scene.renderers)
-        rows += times_row(renderer.renderer, renderer.times);
+        rows += times_row(renderer.renderer + (renderer.from_cache ? " (kept from an earlier run)" : ""),
+                          renderer.times);
     return table(rows);
 }
 
@@ -247,13 +303,41 @@ std::string budget_text(const Budget& budget) {
     return text + ". " + budget.reason;
 }
 
-std::string renderer_html(const SceneReport& scene, const RendererReport& renderer) {
+std::string layers_html(const RendererReport& renderer) {
+    if (renderer.layers.empty())
+        return "";
+    std::string rows = row("<th>what rays meet</th><th>pixels that differ</th><th>of</th><th>largest</th>"
+                           "<th>at</th><th>tolerance</th><th>unit</th>");
+    for (const LayerDifference& layer : renderer.layers)
+        rows += row(cell(fmt::format("<span class=\"{}\">{}</span>", differs(layer) ? "failed" : "passed",
+                                     escape_html(layer.layer))) +
+                    number_cell(std::to_string(layer.pixels)) + number_cell(std::to_string(layer.compared)) +
+                    number_cell(number(layer.largest)) +
+                    number_cell(layer.pixels > 0 ? fmt::format("({}, {})", layer.x, layer.y) : "") +
+                    number_cell(number(layer.tolerance)) + cell(escape_html(layer.unit)));
+    return table(rows);
+}
+
+std::string cause_html(const RendererReport& renderer) {
+    if (!renderer.cause)
+        return "";
+    std::string rows = row("<th>test</th><th>finding</th><th>part of the squared difference explained</th>");
+    for (const Evidence& evidence : renderer.cause->evidence)
+        rows += row(cell(escape_html(evidence.test)) + cell(escape_html(evidence.finding)) +
+                    number_cell(fmt::format("{:.4f}", evidence.explained)));
+    return fmt::format("<p>Cause class: <strong>{}</strong>. {}</p>\n", name_of(renderer.cause->cause),
+                       escape_html(renderer.cause->summary)) +
+           folded("evidence", table(rows), true);
+}
+
+std::string renderer_html(const SceneReport& scene, std::size_t index, const RendererReport& renderer) {
     std::string html =
         fmt::format("<h3>{} {}</h3>\n", escape_html(renderer.renderer), verdict_html(renderer.judgement));
     html += paragraph(renderer.judgement.reason);
     if (renderer.budget)
         html += "<p class=\"dim\">" + escape_html(budget_text(*renderer.budget)) + "</p>\n";
-    html += figures(scene, renderer);
+    html += cause_html(renderer) + layers_html(renderer);
+    html += figures(scene, renderer) + viewer(scene, index, renderer);
     if (!renderer.worst_pixel.empty())
         html += folded("the worst pixel", "<pre>" + escape_html(renderer.worst_pixel) + "</pre>\n",
                        renderer.judgement.verdict == Verdict::failed);
@@ -271,9 +355,11 @@ std::string scene_html(const SceneReport& scene, std::size_t index) {
     std::string html =
         fmt::format("<section>\n<h2 id=\"{}\">{}</h2>\n", scene_anchor(index), escape_html(scene.name));
     html += paragraph(scene.description);
-    html += ErrorTable(scene).html() + times_table(scene);
+    if (!scene.failure.empty())
+        html += "<p class=\"failed\">" + escape_html(scene.failure) + "</p>\n";
+    html += reference_values(scene, index) + ErrorTable(scene).html() + times_table(scene);
     for (const RendererReport& renderer : scene.renderers)
-        html += renderer_html(scene, renderer);
+        html += renderer_html(scene, index, renderer);
     return html + "</section>\n";
 }
 
@@ -286,18 +372,25 @@ std::string to_html(const Report& report) {
                     "<meta name=\"viewport\" content=\"width=device-width\">\n<title>{0}</title>\n"
                     "<style>{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n",
                     escape_html(report.title), style);
-    html += fmt::format(
-        "<p>{} passed, {} failed, {} skipped. A skipped comparison was not made and does not count as "
-        "passed.</p>\n",
-        summary.passed, summary.failed, summary.skipped);
-    html += overview(report) + versions_html(report);
+    const bool compares = !report.scenes.empty() || report.sweeps.empty();
+    if (compares)
+        html += fmt::format(
+            "<p>{} passed, {} failed, {} skipped. A skipped comparison was not made and does not count as "
+            "passed.</p>\n",
+            summary.passed, summary.failed, summary.skipped);
+    html += (compares ? overview(report) : "") + versions_html(report);
     html += "<p class=\"dim\">Errors are absolute differences in linear light. Images are shown in sRGB, "
             "clamped to "
             "0..1 and at most 800 pixels wide; where a difference image is smaller than the image, each of "
             "its pixels "
-            "is the largest of its block. SSIM is of the encoded luminance.</p>\n";
+            "is the largest of its block. SSIM is of the encoded luminance. In a viewer "
+            "the reference's numbers and, by themselves, the differences have 11 bits.</p>\n";
     for (std::size_t i = 0; i < report.scenes.size(); ++i)
         html += scene_html(report.scenes[i], i);
+    for (const SweepScene& sweep : report.sweeps)
+        html += "<section>\n<h2>Error against run time: " + escape_html(sweep.name) + "</h2>\n" +
+                to_html(sweep) + "</section>\n";
+    html += std::string("<script>\n") + report_script + "</script>\n";
     return html + "</body>\n</html>\n";
 }
 

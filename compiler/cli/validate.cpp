@@ -1,285 +1,32 @@
-#include "compiler/backends/render.h"
-#include "compiler/backends/table.h"
 #include "compiler/cli/commands.h"
-#include "compiler/cli/export.h"
-#include "compiler/cli/native.h"
-#include "compiler/ir/bands.h"
-#include "runtime/bands.h"
+#include "compiler/cli/comparison.h"
+#include "compiler/cli/subject.h"
+#include "compiler/cli/sweep.h"
 #include "runtime/host/file.h"
-#include "runtime/host/options.h"
-#include "runtime/host/read_image.h"
-#include "validation/renderers.h"
-#include "validation/report.h"
-#include "validation/scratch.h"
-#include "validation/subprocess.h"
+#include "validation/jobs.h"
+#include "validation/junit.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <sstream>
 
 namespace scc::cli {
 
 namespace {
 
-namespace ir = compiler::ir;
 using validation::RendererReport;
-using validation::RenderStatus;
-using validation::SceneReport;
-using validation::Verdict;
-
-struct Options {
-    SceneOptions scene;
-    std::vector<std::string> files;
-    std::string against = "pov,blender,native";
-    std::string report;
-    host::RenderOptions render; ///< size, samples, threads
-    double timeout_seconds = 1800;
-};
-
-/// A scene with our picture of it.
-struct Subject {
-    Loaded loaded;
-    runtime::RenderRequest request;
-    SceneReport report;
-    validation::ScratchFolder folder;
-};
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-runtime::Image draw_with(const Subject& subject, compiler::Precision precision) {
-    runtime::Image image(subject.request.settings.width, subject.request.settings.height);
-    compiler::make_drawable(subject.loaded.scene, precision).render(subject.request, image);
-    return image;
-}
-
-void draw_reference(Subject& subject) {
-    const auto start = std::chrono::steady_clock::now();
-    subject.report.reference = draw_with(subject, compiler::Precision::full);
-    subject.report.times.trace = seconds_since(start);
-    const runtime::RenderSettings& s = subject.request.settings;
-    const int samples = s.samples;
-    subject.report.reference_made_by =
-        fmt::format("scc render --precision double --size {}x{} --samples {}", s.width, s.height, samples);
-
-    const validation::Metrics metrics =
-        validation::compare(subject.report.reference, draw_with(subject, compiler::Precision::single));
-    subject.report.description = fmt::format("{} x {}, {} samples per pixel. The same in float: max error "
-                                             "{:.2g}, away from edges {:.2g}, {} pixels above 1e-3.",
-                                             s.width, s.height, samples, metrics.all.max_error,
-                                             metrics.away_from_edges.max_error, metrics.all.above(1e-3));
-}
-
-// ---- the other pictures --------------------------------------------------------------------------------
-
-void judge(RendererReport& result, const Subject& subject, double exposure,
-           const compiler::Ledger& ledger = {}) {
-    const runtime::RenderSettings& s = subject.request.settings;
-    result.budget = validation::budget_for(result.renderer, s.width, s.height, samples_per_axis(s), exposure);
-    if (std::any_of(ledger.begin(), ledger.end(), [](const auto& entry) { return entry.is_refined_mesh; })) {
-        result.budget =
-            validation::with_refined_meshes(*result.budget, s.width, s.height, samples_per_axis(s));
-    }
-    if (std::any_of(ledger.begin(), ledger.end(), [](const auto& entry) { return entry.is_differenced; })) {
-        result.budget = validation::with_differenced_bumps(*result.budget, s.width, s.height);
-    }
-    validation::CompareOptions options;
-    options.thresholds = validation::thresholds_for(*result.budget);
-    result.metrics = validation::compare(subject.report.reference, result.image, options);
-    result.judgement = validation::judge(*result.budget, *result.metrics);
-}
-
-RendererReport run_native(const Subject& subject) {
-    RendererReport result;
-    result.renderer = "native";
-    const std::string program = (subject.folder.path() / "native").string();
-    try {
-        ir::Scene scene = subject.loaded.scene;
-        scene.settings = subject.request.settings;
-        compile_native(emit_cpp(scene, compiler::Precision::full, compiler::Numbers::as_values), {}, program);
-    } catch (const EnvironmentError& error) {
-        result.judgement = {Verdict::skipped, error.what()};
-        return result;
-    }
-    const runtime::RenderSettings& s = subject.request.settings;
-    validation::Command command;
-    command.program = program;
-    command.directory = subject.folder.path();
-    command.arguments = {"-o",        "native.exr",
-                         "--size",    fmt::format("{}x{}", s.width, s.height),
-                         "--samples", std::to_string(s.samples),
-                         "--threads", std::to_string(subject.request.threads)};
-    const validation::ProcessResult run = validation::run(command);
-    if (run.end == validation::ProcessEnd::interrupted) {
-        throw Interrupted{};
-    }
-    result.command = "./native";
-    for (const std::string& argument : command.arguments) {
-        result.command += " " + argument;
-    }
-    result.times.total = run.wall_seconds;
-    if (!run.ok()) {
-        result.judgement = {Verdict::failed, validation::describe(run, command) + "\n" + run.err};
-        return result;
-    }
-    result.image = host::read_image((subject.folder.path() / "native.exr").string());
-    judge(result, subject, 1);
-    return result;
-}
-
-/// Exports the scene and has the other renderer draw it.
-validation::RenderResult run_renderer(const compiler::Exporter& exporter, const ir::Scene& scene,
-                                      const Subject& subject, double brightest, double timeout_seconds,
-                                      compiler::Ledger& ledger) {
-    const std::filesystem::path file = subject.folder.path() / ("scene" + std::string(exporter.extension));
-    compiler::ExportFiles beside{.stem = file.stem().string()};
-    ir::Scene sized = scene;
-    sized.settings = subject.request.settings; // meshes are refined for the picture's size
-    host::replace_file(file.string(), exporter.emit(sized, ledger, beside));
-    write_beside(subject.folder.path(), beside);
-    validation::RenderJob job;
-    job.scene = file;
-    job.folder = subject.folder.path();
-    job.width = subject.request.settings.width;
-    job.height = subject.request.settings.height;
-    job.samples_per_axis = samples_per_axis(subject.request.settings);
-    job.threads = subject.request.threads;
-    job.timeout_seconds = timeout_seconds;
-    job.brightest = brightest;
-    validation::RenderResult run =
-        exporter.name == "pov" ? validation::render_with_povray(job) : validation::render_with_blender(job);
-    if (run.status == RenderStatus::interrupted) {
-        throw Interrupted{};
-    }
-    return run;
-}
-
-/// A renderer that knows no spectra draws three wavelengths at a time too.
-validation::RenderResult run_renderer_in_bands(const compiler::Exporter& exporter, const Subject& subject,
-                                               double timeout_seconds, compiler::Ledger& ledger) {
-    const ir::Scene& scene = subject.loaded.scene;
-    validation::RenderResult last;
-    double seconds = 0;
-    runtime::Image sum(subject.report.reference.width, subject.report.reference.height);
-    const auto draw_band = [&](std::size_t band, const runtime::RenderRequest& request,
-                               runtime::Image& image) {
-        const ir::Scene one = ir::band_scene(scene, band);
-        compiler::make_drawable(one, compiler::Precision::full).render(request, image);
-        compiler::Ledger of_band;
-        last = run_renderer(exporter, one, subject, validation::brightest_value(image), timeout_seconds,
-                            of_band);
-        ledger = band == 0 ? of_band : ledger;
-        seconds += last.times.total.value_or(0);
-        runtime::RenderResult result;
-        result.complete = last.status == RenderStatus::done;
-        image = result.complete ? last.image : image;
-        return result;
-    };
-    render_bands(std::span<const runtime::BandGroup<double>>(scene.bands), subject.request, sum, draw_band);
-    last.image = std::move(sum);
-    last.exposure = 1;
-    last.times = {.start_up = {}, .parse = {}, .bounding = {}, .trace = {}, .saving = {}, .total = seconds};
-    ledger.push_back({compiler::Fidelity::exact,
-                      "spectrum",
-                      "scene",
-                      {},
-                      fmt::format("{} pictures of three wavelengths each, added up", scene.bands.size())});
-    return last;
-}
-
-RendererReport run_exported(const Subject& subject, const std::string& name, double timeout_seconds) {
-    RendererReport result;
-    result.renderer = name;
-    const compiler::Exporter& exporter = *compiler::find_exporter(name);
-    compiler::Ledger ledger;
-    const ir::Scene& scene = subject.loaded.scene;
-    validation::RenderResult run =
-        scene.bands.empty()
-            ? run_renderer(exporter, scene, subject, validation::brightest_value(subject.report.reference),
-                           timeout_seconds, ledger)
-            : run_renderer_in_bands(exporter, subject, timeout_seconds, ledger);
-    result.ledger = ledger_rows(ledger, subject.loaded.sources);
-    result.version = run.version;
-    result.command = run.command;
-    result.times = run.times;
-    result.warnings = std::move(run.warnings);
-    result.log = std::move(run.log);
-    if (run.status != RenderStatus::done) {
-        result.judgement = {run.status == RenderStatus::missing ? Verdict::skipped : Verdict::failed,
-                            run.reason};
-        return result;
-    }
-    result.image = std::move(run.image);
-    judge(result, subject, run.exposure, ledger);
-    return result;
-}
-
-RendererReport run_opengl(const Subject& subject, const Options& options, const std::string& file) {
-    RendererReport result;
-    result.renderer = "opengl";
-    if (subject.request.settings.method != runtime::Method::raster) {
-        result.judgement = {Verdict::skipped,
-                            "OpenGL casts no rays; `--mode raster` compares raster pictures"};
-        return result;
-    }
-    const std::optional<std::string> program = validation::find_opengl_program();
-    if (!program) {
-        result.judgement = {Verdict::skipped,
-                            "scc-opengl is not installed; on Debian, before building scc: apt "
-                            "install libosmesa6-dev"};
-        return result;
-    }
-    const runtime::RenderSettings& s = subject.request.settings;
-    const std::string picture = (subject.folder.path() / "opengl.exr").string();
-    validation::Command command;
-    command.program = *program;
-    command.timeout_seconds = options.timeout_seconds;
-    command.arguments = {file,
-                         "-o",
-                         picture,
-                         "--size",
-                         fmt::format("{}x{}", s.width, s.height),
-                         "--samples",
-                         std::to_string(s.samples)};
-    const auto repeat = [&](const char* option, const std::vector<std::string>& values) {
-        for (const std::string& value : values) {
-            command.arguments.insert(command.arguments.end(), {option, value});
-        }
-    };
-    repeat("-D", options.scene.definitions);
-    repeat("--asset-path", options.scene.asset_paths);
-    if (!options.scene.camera.empty()) {
-        repeat("--camera", {options.scene.camera});
-    }
-    const validation::ProcessResult run = validation::run(command);
-    if (run.end == validation::ProcessEnd::interrupted) {
-        throw Interrupted{};
-    }
-    result.command = "scc-opengl " + file;
-    result.times.total = run.wall_seconds;
-    if (!run.ok()) {
-        const bool unsupported = run.end == validation::ProcessEnd::exited && run.code == host::exit_scene;
-        result.judgement = {unsupported ? Verdict::skipped : Verdict::failed,
-                            unsupported ? run.err : validation::describe(run, command) + "\n" + run.err};
-        return result;
-    }
-    result.image = host::read_image(picture);
-    judge(result, subject, 1);
-    return result;
-}
-
-// ---- the command ---------------------------------------------------------------------------------------
+using Subjects = std::vector<std::unique_ptr<Subject>>;
 
 std::vector<std::string> renderers_of(const std::string& list) {
     std::vector<std::string> names;
     std::istringstream stream(list);
     for (std::string name; std::getline(stream, name, ',');) {
-        if (name != "native" && name != "opengl" && compiler::find_exporter(name) == nullptr) {
+        if (!is_renderer(name)) {
             throw host::UsageError(fmt::format(
                 "`{}` is no renderer to compare with; there are pov, blender, opengl and native", name));
         }
@@ -300,84 +47,218 @@ std::string summary_line(const RendererReport& result) {
     if (!result.judgement.reason.empty()) {
         line += " (" + result.judgement.reason + ")";
     }
-    return line + "\n";
-}
-
-// Nothing if the scene is wrong.
-std::unique_ptr<Subject> prepare_subject(const Options& options, const std::string& file) {
-    auto subject = std::make_unique<Subject>();
-    SceneOptions scene = options.scene;
-    scene.file = file;
-    subject->loaded = load(scene, Stage::scene);
-    if (!report(subject->loaded)) {
-        return nullptr;
+    line += "\n";
+    if (result.cause) {
+        line += fmt::format("           cause class {}: {}\n", validation::name_of(result.cause->cause),
+                            result.cause->summary);
     }
-    subject->request = make_request(options.render, subject->loaded.scene.settings);
-    subject->request.settings = with_plain_grid(subject->request.settings); // which all renderers can have
-    subject->report.name = subject->loaded.scene.name;
-    draw_reference(*subject);
-    return subject;
+    return line;
 }
 
-int validate(const Options& options) {
-    const std::vector<std::string> names = renderers_of(options.against);
-    validation::Report all;
-    all.versions.emplace_back("scc", SCC_VERSION);
-    bool fine = true;
-    for (const std::string& file : options.files) {
-        const std::unique_ptr<Subject> subject = prepare_subject(options, file);
-        if (subject == nullptr) {
-            fine = false;
+/// Prints each scene's lines once all its comparisons are done, in the scenes' order.
+class ScenePrinter {
+public:
+    explicit ScenePrinter(const Subjects& subjects, std::size_t renderers) : subjects_(subjects) {
+        for (const auto& subject : subjects) {
+            missing_.push_back(subject->report.failure.empty() ? renderers : 0);
+        }
+    }
+    /// One more comparison of the scene is done.
+    void done(std::size_t scene) {
+        const std::lock_guard lock(guard_);
+        --missing_[scene];
+        print_finished();
+    }
+
+private:
+    void print_finished() {
+        for (; next_ < missing_.size() && missing_[next_] == 0; ++next_) {
+            std::string text = subjects_[next_]->options.file + "\n";
+            for (const RendererReport& result : subjects_[next_]->report.renderers) {
+                text += summary_line(result);
+            }
+            write_result("-", subjects_[next_]->report.failure.empty() ? text : "");
+        }
+    }
+
+    const Subjects& subjects_;
+    std::vector<std::size_t> missing_;
+    std::size_t next_ = 0;
+    std::mutex guard_;
+};
+
+/// All scenes with all renderers, `options.jobs` at a time.
+void compare_all(const ValidateOptions& options, const std::vector<std::string>& names, Subjects& subjects) {
+    const int threads = std::max(1, thread_count(options.render) / options.jobs);
+    ScenePrinter printer(subjects, names.size());
+    std::vector<validation::Job> jobs;
+    for (std::size_t i = 0; i < subjects.size(); ++i) {
+        Subject& subject = *subjects[i];
+        if (!subject.report.failure.empty()) {
             continue;
         }
-        write_result("-", fmt::format("{}\n", file));
-        for (const std::string& name : names) {
-            RendererReport result = name == "native" ? run_native(*subject)
-                                    : name == "opengl"
-                                        ? run_opengl(*subject, options, file)
-                                        : run_exported(*subject, name, options.timeout_seconds);
-            write_result("-", summary_line(result));
+        subject.request.threads = threads;
+        subject.report.renderers.resize(names.size());
+        for (std::size_t k = 0; k < names.size(); ++k) {
+            jobs.push_back([&, i, k] {
+                subjects[i]->report.renderers[k] = compare_with(*subjects[i], names[k], threads);
+                printer.done(i);
+            });
+        }
+    }
+    validation::run_jobs(jobs, options.jobs);
+}
+
+void add_versions(validation::Report& report) {
+    report.versions.emplace_back("scc", SCC_VERSION);
+    for (const validation::SceneReport& scene : report.scenes) {
+        for (const RendererReport& result : scene.renderers) {
             const std::pair<std::string, std::string> version{result.renderer, result.version};
             if (!result.version.empty() &&
-                std::find(all.versions.begin(), all.versions.end(), version) == all.versions.end()) {
-                all.versions.push_back(version);
+                std::find(report.versions.begin(), report.versions.end(), version) == report.versions.end()) {
+                report.versions.push_back(version);
             }
-            subject->report.renderers.push_back(std::move(result));
         }
-        all.scenes.push_back(std::move(subject->report));
     }
-    validation::write_report(all, options.report);
-    const validation::ReportSummary summary = validation::summarize(all);
-    write_result("-", fmt::format("{} passed, {} failed, {} skipped; report: {}/index.html\n", summary.passed,
-                                  summary.failed, summary.skipped, options.report));
-    if (!fine || summary.failed > 0) {
+}
+
+int exit_code(const validation::ReportSummary& summary) {
+    if (summary.broken > 0 || summary.failed > 0) {
         return host::exit_scene;
     }
     return summary.skipped > 0 ? host::exit_environment : host::exit_fine;
 }
 
+std::string words(const std::optional<validation::SweepRatio>& ratio) {
+    return ratio ? fmt::format("{:.3g} ({:.3g} .. {:.3g})", ratio->median, ratio->least, ratio->most)
+                 : "none in common";
+}
+
+/// Each scene's reference, and how much longer others take to the same error.
+std::string sweep_lines(const validation::SweepScene& scene) {
+    std::string text = fmt::format("{}: {}\n", scene.name, scene.confirmation);
+    for (const validation::SweepSeries& ours : scene.series) {
+        for (const validation::SweepSeries& other : scene.series) {
+            if (!is_own(ours) || is_own(other)) {
+                continue;
+            }
+            text += fmt::format("  {:10} over {:18} to equal error: process {}, drawing {}\n", other.renderer,
+                                ours.renderer,
+                                words(equal_error_ratio(ours, other, &validation::RenderTimes::total)),
+                                words(equal_error_ratio(ours, other, &validation::RenderTimes::trace)));
+        }
+    }
+    return text;
+}
+
+int sweep(const ValidateOptions& options, const std::vector<std::string>& names) {
+    if (std::find(names.begin(), names.end(), "opengl") != names.end()) {
+        throw host::UsageError("--sweep draws by rays, which OpenGL does not");
+    }
+    validation::Report all;
+    all.title = "scc validate --sweep";
+    all.versions.emplace_back("scc", SCC_VERSION);
+    bool complete = true;
+    all.sweeps = sweep_scenes(options, names, complete);
+    validation::write_report(all, options.report);
+    for (const validation::SweepScene& scene : all.sweeps) {
+        write_result("-", sweep_lines(scene));
+    }
+    write_result("-", fmt::format("report: {}/index.html\n", options.report));
+    return complete ? host::exit_fine : host::exit_scene;
+}
+
+int validate(const ValidateOptions& options) {
+    const std::vector<std::string> names = renderers_of(options.against);
+    if (options.sweep) {
+        return sweep(options, names);
+    }
+    const auto cache = validation::RenderCache::from_option(options.cache);
+    Subjects subjects;
+    for (const std::string& file : options.files) {
+        subjects.push_back(prepare_subject(options, file));
+        subjects.back()->cache = cache;
+    }
+    compare_all(options, names, subjects);
+    validation::Report all;
+    for (const std::unique_ptr<Subject>& subject : subjects) {
+        all.scenes.push_back(std::move(subject->report));
+    }
+    add_versions(all);
+    validation::write_report(all, options.report);
+    if (!options.junit.empty()) {
+        write_result(options.junit, validation::to_junit(all));
+    }
+    const validation::ReportSummary summary = validation::summarize(all);
+    write_result("-", fmt::format("{} passed, {} failed, {} skipped; report: {}/index.html\n", summary.passed,
+                                  summary.failed, summary.skipped, options.report));
+    return exit_code(summary);
+}
+
+void add_options(CLI::App& command, ValidateOptions& options) {
+    command.add_option("FILE", options.files, "scenes, .scn files")->required();
+    add_scene_values(command, options.scene);
+    command
+        .add_option("--against", options.against,
+                    "pov, blender, opengl (of raster pictures), native (the built program); separated by "
+                    "commas")
+        ->capture_default_str()
+        ->type_name("LIST");
+    command.add_option("--report", options.report, "folder for report.json, index.html and the pictures")
+        ->required()
+        ->type_name("DIR");
+    CLI::Option* sweeps = command.add_flag(
+        "--sweep", options.sweep,
+        "error against run time instead: 1, 4, 16, ... samples per pixel up to --samples (256) "
+        "against 4096 of ours in double, which POV-Ray confirms; --size is 96x72 if it is left "
+        "out");
+    command.add_option("--junit", options.junit, "the verdicts as JUnit XML, for continuous integration")
+        ->excludes(sweeps)
+        ->type_name("FILE.xml");
+    add_render_options(command, options.render, RenderOptionSet::picture);
+    command
+        .add_option("--jobs", options.jobs,
+                    "how many comparisons, each with processes of its own, are under way at once; they share "
+                    "the threads, and disturb each other's times")
+        ->check(CLI::Range(1, 256))
+        ->excludes(sweeps)
+        ->capture_default_str();
+    static const std::map<std::string, LayerUse> uses{
+        {"auto", LayerUse::automatic}, {"always", LayerUse::always}, {"never", LayerUse::never}};
+    command
+        .add_option_function<std::string>(
+            "--layers", [&options](const std::string& use) { options.layers = uses.at(use); },
+            "whether POV-Ray and Blender are asked what rays meet (object, depth, position, normal), too; "
+            "auto "
+            "(default): where a picture is over its budget, to tell the cause")
+        ->check(CLI::IsMember({"auto", "always", "never"}))
+        ->excludes(sweeps)
+        ->type_name("auto|always|never");
+    command
+        .add_option("--cache", options.cache,
+                    "folder that keeps other renderers' pictures, or off; default: $XDG_CACHE_HOME/scc")
+        ->type_name("DIR|off");
+    command
+        .add_option("--timeout", options.timeout_seconds,
+                    "seconds that one renderer, ourselves among them, may take for a picture")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+}
+
 } // namespace
 
 void add_validate(CLI::App& app, Run& selected) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ValidateOptions>();
     CLI::App* command = app.add_subcommand(
         "validate", "compare our picture with other renderers' pictures of the same scene");
-    command->add_option("FILE", options->files, "scenes, .scn files")->required();
-    add_scene_values(*command, options->scene);
-    command
-        ->add_option("--against", options->against,
-                     "pov, blender, opengl (of raster pictures), native (the built program); separated by "
-                     "commas")
-        ->capture_default_str()
-        ->type_name("LIST");
-    command->add_option("--report", options->report, "folder for report.json, index.html and the pictures")
-        ->required()
-        ->type_name("DIR");
-    add_render_options(*command, options->render, RenderOptionSet::picture);
-    command->add_option("--timeout", options->timeout_seconds, "seconds that one renderer may take")
-        ->capture_default_str();
-    command->footer("\nExits with 1 if a comparison is over its budget, with 3 if all that ran passed but a "
-                    "renderer is missing.");
+    add_options(*command, *options);
+    command->footer(
+        "\nA scene states limits of its own, where it has a reason, in a comment:\n"
+        "  //@ budget blender: above_1e-3 = 60, away_from_edges = 2e-4 because the lens is sampled at "
+        "random\n"
+        "Counts are per 640 x 480 pixels; max_error and outliers are the other two.\n\n"
+        "Exits with 1 if a comparison is over its budget, with 3 if all that ran passed but a renderer is "
+        "missing.");
     command->callback([&selected, options] { selected = [options] { return validate(*options); }; });
 }
 

@@ -101,10 +101,13 @@ Cache Cache::of_user() {
         }
         base = home / ".cache";
     }
-    const std::string size = environment("SCC_CACHE_SIZE");
     const fs::path folder = base / "scc";
-    return is_private_folder(folder) ? Cache(folder, size.empty() ? default_limit : parse_size(size))
-                                     : Cache();
+    return is_private_folder(folder) ? in_folder(folder) : Cache();
+}
+
+Cache Cache::in_folder(fs::path folder) {
+    const std::string size = environment("SCC_CACHE_SIZE");
+    return {std::move(folder), size.empty() ? default_limit : parse_size(size)};
 }
 
 std::optional<Cache::Entry> Cache::find(std::string_view kind, const std::string& key) const {

@@ -44,6 +44,8 @@ public:
     /// (bytes, or with K, M or G; 1G if it is not set), and SCC_CACHE=off means none. A folder that others
     /// may write to is not used, since programs are run from it.
     static Cache of_user();
+    /// An existing folder, with the same limit; whoever may write to it can change what is found there.
+    static Cache in_folder(std::filesystem::path folder);
 
     bool keeps() const { return !folder_.empty(); }
     /// `kind`: a folder within, for a person to see what is there.

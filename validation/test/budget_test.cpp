@@ -1,4 +1,5 @@
 #include "validation/budget.h"
+#include "validation/scene_budget.h"
 
 #include <gtest/gtest.h>
 
@@ -122,6 +123,46 @@ TEST(Judge, ValuesThatAreNotFiniteAlwaysFail) {
     for (const char* renderer : {"native", "pov", "blender"})
         EXPECT_EQ(judge_images(*budget_for(renderer, 64, 48), image, image).verdict, Verdict::failed)
             << renderer;
+}
+
+TEST(SceneBudget, ReplacesWhatItStatesAndSaysSo) {
+    const std::vector<SceneBudget> stated =
+        read_scene_budgets("// budget of rays\n  //@ budget blender: above_1e-3 = 60, away_from_edges = 2e-4 "
+                           "because it is: random, too\r\nsphere { } //@ no comment of its own\n"
+                           "//@ budget pov:max_error=1e-4,outliers=0 because so\n");
+    ASSERT_EQ(stated.size(), 2U);
+    EXPECT_EQ(stated[0].line, 2);
+    const Budget usual = *budget_for("blender", 640, 480);
+    const Budget budget = with_scene_budget(usual, stated[0], 1280, 480);
+    EXPECT_EQ(budget.above_1e3, 120U);
+    EXPECT_EQ(budget.max_away_from_edges, 2e-4);
+    EXPECT_EQ(budget.outliers, usual.outliers);
+    EXPECT_NE(budget.reason.find("line 2: it is: random, too (otherwise: single precision"),
+              std::string::npos)
+        << budget.reason;
+    const Budget pov = with_scene_budget(*budget_for("pov", 640, 480), stated[1], 640, 480);
+    EXPECT_EQ(pov.max_error, 1e-4);
+    EXPECT_EQ(pov.outliers, 0U);
+}
+
+TEST(SceneBudget, WhatIsNoneIsAnErrorWithItsLine) {
+    for (const char* text :
+         {"//@ budgets pov: outliers = 1 because x", "//@ budget pov outliers = 1 because x",
+          "//@ budget maya: outliers = 1 because x", "//@ budget pov: outlier = 1 because x",
+          "//@ budget pov: outliers = 1", "//@ budget pov: outliers = 1 because ",
+          "//@ budget pov: outliers = 1.5 because x", "//@ budget pov: outliers = -1 because x",
+          "//@ budget pov: outliers = 1e300 because x", "//@ budget pov: max_error = nan because x",
+          "//@ budget pov: max_error = 1x because x", "//@ budget pov: max_error because x",
+          "//@ budget pov: because x", "//@ budget pov: outliers = 1, because x",
+          "//@ budget pov: outliers = 1 because x\n//@ budget pov: outliers = 2 because x", "//@", "//@x"}) {
+        try {
+            read_scene_budgets("\n" + std::string(text));
+            ADD_FAILURE() << text;
+        } catch (const BudgetError& error) {
+            EXPECT_GE(error.line, 2) << text;
+        }
+    }
+    EXPECT_TRUE(read_scene_budgets("").empty());
 }
 
 } // namespace

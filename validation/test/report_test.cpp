@@ -1,5 +1,6 @@
 #include "runtime/host/read_image.h"
 #include "validation/embed.h"
+#include "validation/junit.h"
 #include "validation/report.h"
 #include "validation/scratch.h"
 
@@ -126,7 +127,7 @@ TEST(Report, ImagesAreStoredUnderDistinctRelativeNames) {
 TEST(Report, HtmlEscapesEveryText) {
     const std::string html = to_html(example());
     for (const char* raw :
-         {"<script", "<b>", "<img src=x>", "<ball>", "<log>", "<shade>", "<3.7>", "<12>", "a<b.pov"})
+         {"<script>alert", "<b>", "<img src=x>", "<ball>", "<log>", "<shade>", "<3.7>", "<12>", "a<b.pov"})
         EXPECT_EQ(html.find(raw), std::string::npos) << raw;
     for (const char* escaped :
          {"two &lt;b&gt;balls&lt;/b&gt; &amp; &quot;more&quot;", "it&#39;s &lt;/p&gt;&lt;script&gt;",
@@ -209,6 +210,35 @@ TEST(Shrunk, AveragesOrKeepsTheMaximumAndLeavesSmallImagesAlone) {
 TEST(Shrunk, WideImagesAreEmbeddedAtMostEightHundredPixelsWide) {
     EXPECT_EQ(shrunk(Image(1920, 1080), 800, Shrink::average).width, 640);
     EXPECT_EQ(shrunk(Image(801, 10), 800, Shrink::average).width, 401);
+}
+
+TEST(Report, ViewersHoldTheNumbers) {
+    const std::string html = to_html(example());
+    EXPECT_EQ(count(html, "class=\"viewer\" data-width=\"40\" data-height=\"30\" data-block=\"1\""), 2U);
+    EXPECT_EQ(count(html, "id=\"values-1\""), 1U);
+    Image values(2, 1);
+    values.pixels = {0, 1, -2, 0x1p-24F, 65520, 2047.9F / 2048};
+    // 0000 3c00 c000 0001 7c00 3c00, little-endian
+    EXPECT_EQ(half_floats(values, 1), base64(std::string("\0\0\0\x3c\0\xc0\1\0\0\x7c\0\x3c", 12)));
+}
+
+TEST(JUnit, CountsAndEscapes) {
+    Report report = example();
+    report.scenes[0].renderers[2].judgement.reason = "a<b\nc\x01 \xFF \"q\"";
+    SceneReport broken;
+    broken.name = "wrong.scn";
+    broken.failure = "the scene is wrong";
+    report.scenes.push_back(broken);
+    const std::string xml = to_junit(report);
+    EXPECT_EQ(count(xml, "<testsuite "), 3U);
+    EXPECT_EQ(count(xml, "<testcase "), 7U);
+    EXPECT_EQ(count(xml, "<failure "), 2U);
+    EXPECT_EQ(count(xml, "<skipped "), 2U);
+    EXPECT_NE(xml.find("tests=\"7\" failures=\"2\" errors=\"1\" skipped=\"2\""), std::string::npos) << xml;
+    EXPECT_NE(xml.find("<error message=\"the scene is wrong\"/>"), std::string::npos) << xml;
+    EXPECT_NE(xml.find("message=\"a&lt;b&#10;c\xEF\xBF\xBD \xEF\xBF\xBD &quot;q&quot;\""), std::string::npos)
+        << xml;
+    EXPECT_EQ(summarize(report).broken, 1U);
 }
 
 } // namespace

@@ -1,3 +1,4 @@
+#include "validation/jobs.h"
 #include "validation/scratch.h"
 #include "validation/subprocess.h"
 
@@ -283,6 +284,36 @@ TEST(ScratchFolder, IsPrivateAndGoesWithItsContents) {
         EXPECT_NE(ScratchFolder().path(), path);
     }
     EXPECT_FALSE(fs::exists(path));
+}
+
+TEST(Jobs, AllRunAndNoMoreThanAskedForAtOnce) {
+    std::atomic<int> running{0};
+    std::atomic<int> most{0};
+    std::atomic<int> done{0};
+    const Job job = [&] {
+        const int now = ++running;
+        for (int seen = most; seen < now && !most.compare_exchange_weak(seen, now);) {
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        --running;
+        ++done;
+    };
+    for (const int parallel : {0, 1, 3, 100}) {
+        most = 0;
+        run_jobs(std::vector<Job>(12, job), parallel);
+        EXPECT_LE(most, std::max(parallel, 1));
+    }
+    EXPECT_EQ(done, 48);
+    run_jobs({}, 2);
+}
+
+TEST(Jobs, TheFirstExceptionEndsThem) {
+    std::atomic<int> done{0};
+    std::vector<Job> jobs(100, [&] { ++done; });
+    jobs[3] = [] { throw std::runtime_error("third"); };
+    EXPECT_THROW(run_jobs(jobs, 1), std::runtime_error);
+    EXPECT_EQ(done, 3);
+    EXPECT_THROW(run_jobs(jobs, 4), std::runtime_error);
 }
 
 } // namespace
