@@ -84,6 +84,12 @@ void Diagnostics::imported(FileId file, Span where) {
     }
 }
 
+// Not inline: g++ 12 then warns of the moved text's bounds without reason.
+Diagnostic& Diagnostic::note(Span where, std::string text) {
+    notes.push_back({where, std::move(text)});
+    return *this;
+}
+
 /// The way to the scene's own file by each file's first import, and the other imports of the file itself.
 void Diagnostics::note_imports(Diagnostic& diagnostic) const {
     constexpr std::size_t most_places = 4;

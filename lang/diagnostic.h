@@ -54,10 +54,7 @@ struct Diagnostic {
     std::vector<Note> notes;
     std::optional<Fix> fix;
 
-    Diagnostic& note(Span where, std::string text) {
-        notes.push_back({where, std::move(text)});
-        return *this;
-    }
+    Diagnostic& note(Span where, std::string text);
     Diagnostic& suggest(Span where, std::string replacement) {
         fix = Fix{where, std::move(replacement)};
         return *this;

@@ -89,12 +89,16 @@ std::string PovFrame::texture_transform() const {
 
 namespace {
 
-/// Surfaces that shadow and mirror themselves at distances far below their size.
+/// Surfaces that shadow and mirror themselves, or neighbours that do so to each other, at distances far below
+/// their size.
 bool has_folds(const ir::Scene& scene) {
-    return !scene.meshes.empty() ||
-           std::any_of(scene.objects.begin(), scene.objects.end(), [](const ir::Object& object) {
-               return std::holds_alternative<runtime::Implicit<double>>(object.shape);
-           });
+    const auto count = [&]<class Shape>(const Shape&) {
+        return std::count_if(scene.objects.begin(), scene.objects.end(), [](const ir::Object& object) {
+            return std::holds_alternative<Shape>(object.shape);
+        });
+    };
+    return !scene.meshes.empty() || count(runtime::Implicit<double>{}) > 0 ||
+           count(runtime::Triangle<double>{}) > 1;
 }
 
 } // namespace

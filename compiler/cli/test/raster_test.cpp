@@ -53,9 +53,10 @@ TEST_F(Raster, IsWhatTheFirstRenderOrTheCommandLineAsksFor) {
 }
 
 TEST_F(Raster, DrawsLinesThatRaysCannotMeet) {
-    write("s.scn", std::string(ball) +
-                       "polyline { points = [(-3, 1.5, 0), (3, 1.5, 0)], color = rgb(1, 0, 0) }\n"
-                       "render { method = raster { } }\n");
+    std::string text = ball;
+    text += "polyline { points = [(-3, 1.5, 0), (3, 1.5, 0)], color = rgb(1, 0, 0) }\n"
+            "render { method = raster { } }\n";
+    write("s.scn", text);
     const runtime::Image image = drawn({});
     int red = 0;
     for (int y = 0; y < image.height; ++y) {
