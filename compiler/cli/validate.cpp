@@ -3,6 +3,7 @@
 #include "compiler/cli/commands.h"
 #include "compiler/cli/export.h"
 #include "compiler/cli/native.h"
+#include "compiler/cli/run_renderer.h"
 #include "compiler/ir/bands.h"
 #include "runtime/bands.h"
 #include "runtime/host/file.h"
@@ -132,33 +133,6 @@ RendererReport run_native(const Subject& subject) {
     return result;
 }
 
-/// Exports the scene and has the other renderer draw it.
-validation::RenderResult run_renderer(const compiler::Exporter& exporter, const ir::Scene& scene,
-                                      const Subject& subject, double brightest, double timeout_seconds,
-                                      compiler::Ledger& ledger) {
-    const std::filesystem::path file = subject.folder.path() / ("scene" + std::string(exporter.extension));
-    compiler::ExportFiles beside{.stem = file.stem().string()};
-    ir::Scene sized = scene;
-    sized.settings = subject.request.settings; // meshes are refined for the picture's size
-    host::replace_file(file.string(), exporter.emit(sized, ledger, beside));
-    write_beside(subject.folder.path(), beside);
-    validation::RenderJob job;
-    job.scene = file;
-    job.folder = subject.folder.path();
-    job.width = subject.request.settings.width;
-    job.height = subject.request.settings.height;
-    job.samples_per_axis = samples_per_axis(subject.request.settings);
-    job.threads = subject.request.threads;
-    job.timeout_seconds = timeout_seconds;
-    job.brightest = brightest;
-    validation::RenderResult run =
-        exporter.name == "pov" ? validation::render_with_povray(job) : validation::render_with_blender(job);
-    if (run.status == RenderStatus::interrupted) {
-        throw Interrupted{};
-    }
-    return run;
-}
-
 /// A renderer that knows no spectra draws three wavelengths at a time too.
 validation::RenderResult run_renderer_in_bands(const compiler::Exporter& exporter, const Subject& subject,
                                                double timeout_seconds, compiler::Ledger& ledger) {
@@ -171,8 +145,8 @@ validation::RenderResult run_renderer_in_bands(const compiler::Exporter& exporte
         const ir::Scene one = ir::band_scene(scene, band);
         compiler::make_drawable(one, compiler::Precision::full).render(request, image);
         compiler::Ledger of_band;
-        last = run_renderer(exporter, one, subject, validation::brightest_value(image), timeout_seconds,
-                            of_band);
+        last = run_renderer(exporter, one, subject.request, subject.folder.path(),
+                            validation::brightest_value(image), timeout_seconds, of_band);
         ledger = band == 0 ? of_band : ledger;
         seconds += last.times.total.value_or(0);
         runtime::RenderResult result;
@@ -200,8 +174,8 @@ RendererReport run_exported(const Subject& subject, const std::string& name, dou
     const ir::Scene& scene = subject.loaded.scene;
     validation::RenderResult run =
         scene.bands.empty()
-            ? run_renderer(exporter, scene, subject, validation::brightest_value(subject.report.reference),
-                           timeout_seconds, ledger)
+            ? run_renderer(exporter, scene, subject.request, subject.folder.path(),
+                           validation::brightest_value(subject.report.reference), timeout_seconds, ledger)
             : run_renderer_in_bands(exporter, subject, timeout_seconds, ledger);
     result.ledger = ledger_rows(ledger, subject.loaded.sources);
     result.version = run.version;

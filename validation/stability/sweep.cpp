@@ -91,8 +91,8 @@ Reading read(const runtime::Image& reference, const runtime::Image& other) {
     return {.drawn = true,
             .reason = {},
             .max_error = metrics.away_from_edges.max_error,
-            .wrong = static_cast<double>(metrics.all.above(kept_error)) /
-                     static_cast<double>(metrics.all.pixels)};
+            .wrong =
+                static_cast<double>(metrics.all.above(kept_error)) / static_cast<double>(metrics.all.pixels)};
 }
 
 std::optional<int> threshold(const Sweep& sweep, std::size_t engine) {
@@ -124,9 +124,8 @@ std::vector<int> wrong_picks(const Sweep& sweep) {
 }
 
 std::vector<int> cautious_picks(const Sweep& sweep) {
-    return powers_where(sweep, [](const Step& step) {
-        return step.chosen == "double" && step.readings[in_float].kept();
-    });
+    return powers_where(
+        sweep, [](const Step& step) { return step.chosen == "double" && step.readings[in_float].kept(); });
 }
 
 std::vector<int> beyond_double(const Sweep& sweep) {
@@ -138,9 +137,10 @@ std::string to_text(const Sweep& sweep) {
                                    sweep.steps.front().power, sweep.steps.back().power);
     for (std::size_t i = 0; i < sweep.engines.size(); ++i) {
         const Reading &first = sweep.steps.front().readings[i], &last = sweep.steps.back().readings[i];
-        text += fmt::format("  {:8} keeps 1e-4 to {:6} digits {:.1f} .. {:.1f}, wrong pixels {:.2g} .. {:.2g} %",
-                            sweep.engines[i], power_text(threshold(sweep, i)), first.digits(), last.digits(),
-                            100 * first.wrong, 100 * last.wrong);
+        text +=
+            fmt::format("  {:8} keeps 1e-4 to {:6} digits {:.1f} .. {:.1f}, wrong pixels {:.2g} .. {:.2g} %",
+                        sweep.engines[i], power_text(threshold(sweep, i)), first.digits(), last.digits(),
+                        100 * first.wrong, 100 * last.wrong);
         if (i == in_auto && sweep.holds_to) {
             text += fmt::format("; recorded 1e{}{}", *sweep.holds_to,
                                 is_worse_than_recorded(sweep) ? ": WORSE" : "");
