@@ -43,6 +43,7 @@ void add_build(CLI::App& app, Run& selected);
 void add_export(CLI::App& app, Run& selected);
 void add_import(CLI::App& app, Run& selected);
 void add_validate(CLI::App& app, Run& selected);
+void add_stability(CLI::App& app, Run& selected);
 void add_explain(CLI::App& app, Run& selected);
 void add_compare(CLI::App& app, Run& selected);
 void add_lsp(CLI::App& app, Run& selected);

@@ -59,9 +59,8 @@ void explain_worst(RendererReport& result, const Subject& subject) {
     options.render.samples = s.samples;
     const validation::Place& worst = result.metrics->all.worst;
     options.pixel = {worst.x, worst.y};
-    if (s.method == runtime::Method::ray) {
-        result.worst_pixel = explain_pixel(subject.loaded, options);
-    }
+    result.worst_pixel = s.method == runtime::Method::ray ? explain_rays(subject.loaded, options)
+                                                          : explain_raster(subject.loaded, options);
 }
 
 validation::ProcessResult run_to_end(const validation::Command& command) {
@@ -110,8 +109,8 @@ RendererReport run_native(const Subject& subject, int threads) {
 }
 
 /// A renderer that knows no spectra draws three wavelengths at a time too.
-validation::RenderResult run_in_bands(const ExportedRun& run, compiler::Ledger& ledger) {
-    const Subject& subject = run.subject;
+validation::RenderResult run_in_bands(const Subject& subject, const ExportedRun& run,
+                                      compiler::Ledger& ledger) {
     const ir::Scene& scene = subject.loaded.scene;
     validation::RenderResult last;
     double seconds = 0;
@@ -148,14 +147,17 @@ RendererReport run_exported(const Subject& subject, const std::string& name, int
     RendererReport result;
     result.renderer = name;
     const ScratchFolder folder;
-    const ExportedRun how{subject,       *compiler::find_exporter(name), folder.path(), threads, {},
-                          &subject.cache};
+    const ExportedRun how{.exporter = *compiler::find_exporter(name),
+                          .folder = folder.path(),
+                          .threads = threads,
+                          .timeout_seconds = subject.timeout_seconds,
+                          .cache = &subject.cache};
     compiler::Ledger ledger;
     const ir::Scene& scene = subject.loaded.scene;
     validation::RenderResult run =
         scene.bands.empty()
             ? run_exported_scene(how, scene, subject.request.settings, subject.brightest, ledger)
-            : run_in_bands(how, ledger);
+            : run_in_bands(subject, how, ledger);
     result.ledger = ledger_rows(ledger, subject.loaded.sources);
     result.version = run.version;
     result.command = run.command;
@@ -261,7 +263,7 @@ validation::RenderResult run_exported_scene(const ExportedRun& run, const ir::Sc
     job.height = settings.height;
     job.samples_per_axis = samples_per_axis(settings);
     job.threads = run.threads;
-    job.timeout_seconds = run.subject.timeout_seconds;
+    job.timeout_seconds = run.timeout_seconds;
     job.brightest = brightest;
     validation::RenderResult result = run.exporter.name == "pov" ? validation::render_with_povray(job)
                                                                  : validation::render_with_blender(job);

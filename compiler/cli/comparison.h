@@ -18,10 +18,10 @@ validation::RendererReport compare_with(const Subject& subject, const std::strin
 
 /// Where and how an exported scene is drawn.
 struct ExportedRun {
-    const Subject& subject;
     const compiler::Exporter& exporter;
     const std::filesystem::path& folder;
     int threads = 0;
+    double timeout_seconds = 0;
     std::optional<validation::PovrayAntialiasing> antialiasing{}; ///< instead of the settings' samples
     const validation::RenderCache* cache = nullptr;               ///< null: it is drawn in any case
 };

@@ -91,8 +91,11 @@ std::optional<PositionRange> range_of(const runtime::AovImage& aovs) {
 class OtherLayers {
 public:
     OtherLayers(const Subject& subject, const std::string& renderer, int threads)
-        : subject_(subject),
-          run_{subject, *compiler::find_exporter(renderer), folder_.path(), threads, {}, &subject.cache} {}
+        : subject_(subject), run_{.exporter = *compiler::find_exporter(renderer),
+                                  .folder = folder_.path(),
+                                  .threads = threads,
+                                  .timeout_seconds = subject.timeout_seconds,
+                                  .cache = &subject.cache} {}
 
     /// Nothing if one of the pictures fails.
     std::optional<Layers> draw(const PositionRange& range, bool with_objects) {

@@ -48,6 +48,7 @@ Examples:
   scc import nff balls.nff -o balls.scn          turn a Neutral File Format scene into one of ours
   scc validate scene.scn --against pov,blender,native --report out
                                                  compare our picture with theirs
+  scc stability offset scale_up --report out     how far our pictures hold when scenes go to extremes
   scc explain scene.scn --pixel 320,240          tell how a pixel came about
 
 Exit codes: 0 fine; 1 the scene is wrong or a comparison failed; 2 usage; 3 the environment (file, disk, missing
@@ -63,7 +64,7 @@ int main(int argc, char** argv) {
     app.footer(examples);
     cli::Run selected;
     for (auto* add : {cli::add_check, cli::add_fmt, cli::add_params, cli::add_render, cli::add_build,
-                      cli::add_export, cli::add_import, cli::add_validate, cli::add_explain, cli::add_compare,
+                      cli::add_export, cli::add_import, cli::add_validate, cli::add_stability, cli::add_explain, cli::add_compare,
                       cli::add_lsp, cli::add_doctor, cli::add_reference}) {
         add(app, selected);
     }

@@ -188,10 +188,10 @@ private:
         settings.samples = n * n;
         const validation::ScratchFolder folder;
         compiler::Ledger ledger;
-        const ExportedRun run{.subject = subject_,
-                              .exporter = *compiler::find_exporter(renderer),
+        const ExportedRun run{.exporter = *compiler::find_exporter(renderer),
                               .folder = folder.path(),
                               .threads = threads_,
+                              .timeout_seconds = subject_.timeout_seconds,
                               .antialiasing = antialiasing,
                               .cache = cache};
         return run_exported_scene(run, subject_.loaded.scene, settings, brightest_, ledger);

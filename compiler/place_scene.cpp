@@ -1,0 +1,114 @@
+#include "compiler/place_scene.h"
+
+#include "compiler/bounds.h"
+#include "compiler/ir/objects.h"
+
+#include <fmt/core.h>
+
+#include <type_traits>
+#include <variant>
+
+namespace scc::compiler {
+
+namespace {
+
+using runtime::Affine;
+using runtime::Vec3;
+
+class Placing {
+public:
+    Placing(double scale, const Vec3<double>& offset) : scale_(scale), offset_(offset) {}
+
+    void apply(Affine<double>& world_from_object) const {
+        const Affine<double> place{
+            {{scale_, 0, 0, offset_.x}, {0, scale_, 0, offset_.y}, {0, 0, scale_, offset_.z}}};
+        world_from_object = compose(place, world_from_object);
+    }
+    void apply(Vec3<double>& p) const { p = p * scale_ + offset_; }
+    void apply(runtime::DirectionalLight<double>&) const {}
+    void apply(runtime::PointLight<double>& light) const {
+        apply(light.position);
+        light.kl /= scale_;
+        light.kq /= scale_ * scale_;
+    }
+    void apply(runtime::RectangleLight<double>& light) const {
+        apply(static_cast<runtime::PointLight<double>&>(light));
+        light.edge_u = light.edge_u * scale_;
+        light.edge_v = light.edge_v * scale_;
+    }
+    void apply(runtime::Camera<double>& camera) const {
+        apply(camera.eye);
+        for (double* length : {&camera.lens_radius, &camera.focus, &camera.near, &camera.far}) {
+            *length *= scale_;
+        }
+        if (camera.projection == runtime::Projection::orthographic) {
+            camera.half_height *= scale_;
+        }
+    }
+
+private:
+    double scale_;
+    Vec3<double> offset_;
+};
+
+} // namespace
+
+void place_scene(ir::Scene& scene, double scale, const Vec3<double>& offset) {
+    const Placing placing(scale, offset);
+    for (ir::Object& object : scene.objects) {
+        if (!std::holds_alternative<runtime::Csg<double>>(object.shape)) { // whose members are in the world
+            placing.apply(object.world_from_object);
+        }
+    }
+    for (ir::Object& member : scene.members) {
+        placing.apply(member.world_from_object);
+    }
+    for (ir::ObjectArray& array : scene.arrays) {
+        for (ir::ObjectColumn& column : array.columns) {
+            placing.apply(column.world_from_object);
+        }
+    }
+    for (ir::Light& light : scene.lights) {
+        std::visit([&](auto& one) { placing.apply(one); }, light.light);
+    }
+    for (ir::Polyline& line : scene.polylines) {
+        for (Vec3<double>& p : line.points) {
+            placing.apply(p);
+        }
+    }
+    placing.apply(scene.camera);
+}
+
+bool step_back(ir::Scene& scene, double factor) {
+    const runtime::Bounds<double> box = world_bounds(scene);
+    runtime::Camera<double>& camera = scene.camera;
+    if (camera.projection != runtime::Projection::perspective || !(box.min.x <= box.max.x)) {
+        return false;
+    }
+    const double distance = dot(camera.eye - (box.min + box.max) * 0.5, camera.n);
+    if (!(distance > 0)) {
+        return false;
+    }
+    const double back = (factor - 1) * distance;
+    camera.eye = camera.eye + camera.n * back;
+    camera.half_height /= factor;
+    camera.near += back;
+    camera.far += back;
+    camera.focus += back;
+    return true;
+}
+
+std::optional<std::string> tied_to_place(const ir::Scene& scene) {
+    for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
+        const ir::Material& material = scene.materials[i];
+        if (ir::material_reads(scene, i, ir::Input::world_x, ir::Input::world_z)) {
+            return fmt::format("`{}` depends on places in the world", material.name);
+        }
+        if (material.phong.bump != runtime::no_function) {
+            return fmt::format("the bumps of `{}` have their height in the world", material.name);
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace scc::compiler

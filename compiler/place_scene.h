@@ -1,0 +1,22 @@
+#pragma once
+
+#include "compiler/ir/scene.h"
+
+#include <optional>
+#include <string>
+
+namespace scc::compiler {
+
+/// Scales the whole scene, camera and lights and their attenuation included, and then moves it: the picture
+/// stays the same. Of a scene that the passes have not run over.
+void place_scene(ir::Scene& scene, double scale, const runtime::Vec3<double>& offset);
+
+/// Moves the perspective camera backwards, `factor` times as far from the middle of the scene's bounded
+/// objects, and narrows its view as much. False for another camera, or where that has no effect: nothing is
+/// bounded, or the camera is in the middle.
+bool step_back(ir::Scene& scene, double factor);
+
+/// Why a picture changes when the scene is placed elsewhere or in another size; nothing if it does not.
+std::optional<std::string> tied_to_place(const ir::Scene& scene);
+
+} // namespace scc::compiler
