@@ -18,6 +18,10 @@ namespace {
 constexpr double most_sizes_away = 4000;
 constexpr double most_stretched = 300;
 constexpr double most_shininess = 2000;
+/// Mirrors one after the other: each adds its roundings, and a curved one multiplies those before it.
+constexpr int most_mirrors = 64;
+/// Far to near plane, which z-buffers divide their digits among.
+constexpr double deepest = 1e6;
 /// Squares and products of coordinates beyond these leave float's range.
 constexpr double largest = 1e9, smallest = 1e-9;
 
@@ -82,6 +86,35 @@ std::optional<std::string> too_much(const ir::ObjectColumn& column, const ir::Sc
         column.shapes);
 }
 
+std::optional<std::string> too_much(const ir::Material& material, const runtime::RenderSettings& settings) {
+    const runtime::Phong<double>& phong = material.phong;
+    if (phong.shininess.function < 0 && !(phong.shininess.value <= most_shininess)) {
+        return fmt::format("the shininess of `{}` is above {}", material.name, most_shininess);
+    }
+    if (settings.method != runtime::Method::ray) {
+        return std::nullopt;
+    }
+    if (refracts(phong)) {
+        return fmt::format("`{}` bends rays, which multiplies what is rounded where they graze it",
+                           material.name);
+    }
+    const bool mirrors =
+        phong.reflect.function != runtime::no_function || !(phong.reflect.value == runtime::Rgb<double>{});
+    if (settings.depth > most_mirrors && mirrors) {
+        return fmt::format("`{}` may mirror rays more than {} times", material.name, most_mirrors);
+    }
+    return std::nullopt;
+}
+
+std::optional<std::string> too_deep(const ir::Scene& scene) {
+    const runtime::Camera<double>& camera = scene.camera;
+    if (scene.settings.method == runtime::Method::raster && camera.far > deepest * camera.near &&
+        camera.projection == runtime::Projection::perspective) {
+        return fmt::format("the far plane is more than {} times as far as the near plane", deepest);
+    }
+    return std::nullopt;
+}
+
 } // namespace
 
 std::optional<std::string> needs_double(const ir::Scene& scene) {
@@ -109,12 +142,11 @@ std::optional<std::string> needs_double(const ir::Scene& scene) {
         return reason;
     }
     for (const ir::Material& material : scene.materials) {
-        const auto& shininess = material.phong.shininess;
-        if (shininess.function < 0 && !(shininess.value <= most_shininess)) {
-            return fmt::format("the shininess of `{}` is above {}", material.name, most_shininess);
+        if (auto of_material = too_much(material, scene.settings)) {
+            return of_material;
         }
     }
-    return std::nullopt;
+    return too_deep(scene);
 }
 
 } // namespace scc::compiler

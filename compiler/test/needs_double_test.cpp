@@ -17,7 +17,9 @@ TEST(NeedsDouble, NotForOrdinaryNumbers) {
          {"sphere { }", "plane { }", "sphere { center = (100, 0, 0) }", "sphere { radius = 0.01 }",
           "cylinder { from = (0, 0, 0), to = (1000, 0, 0), radius = 1 }",
           "box { transform = scale(1, 0.01, 1) then rotate_x(20deg) }",
-          "sphere { material = phong { shininess = 1000 } }"}) {
+          "sphere { material = phong { shininess = 1000 } }",
+          "sphere { material = phong { transmit = rgb(1, 1, 1) } }",
+          "sphere { material = phong { reflect = rgb(1, 1, 1) } }"}) {
         EXPECT_EQ(reason(shapes), "") << shapes;
     }
 }
@@ -29,7 +31,12 @@ TEST(NeedsDouble, WhereFloatRunsOutOfDigitsOrRange) {
         {"sphere { }\nsphere { radius = 0.0001, center = (1, 2, 3) }", "`sphere[1]`"},
         {"sphere { radius = 1e10 }", "too large or too small"},
         {"sphere { transform = scale(1, 1e-3, 1) }", "stretches it"},
-        {"sphere { material = phong { shininess = 1e5 } }", "shininess"}};
+        {"sphere { material = phong { shininess = 1e5 } }", "shininess"},
+        {"sphere { material = phong { transmit = rgb(1, 1, 1), ior = 1.5 } }", "bends rays"},
+        {"sphere { material = phong { reflect = rgb(1, 1, 1) } }\nrender { method = ray { depth = 100 } }",
+         "mirror rays"},
+        {"sphere { }\nperspective_camera { near = 1e-5, far = 100 }\nrender { method = raster { } }",
+         "near plane"}};
     for (const auto& [shapes, part] : cases) {
         EXPECT_NE(reason(shapes).find(part), std::string::npos) << shapes << ": " << reason(shapes);
     }

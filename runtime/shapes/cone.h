@@ -69,7 +69,7 @@ struct Cone {
         const MaskOf<L> on_side = hit.part == IndexOf<L>(0);
         const MaskOf<L> at_from = hit.part == IndexOf<L>(1);
         const L height = choose(on_side, f.org_along + hit.t * f.dir_along, choose(at_from, L(0), f.height));
-        // Twice made perpendicular: near a tip what is left along the axis would tilt the normal.
+        // Made perpendicular once more, as the cylinder's; near a tip what is left would tilt the normal, too.
         const Vec3<L> nearly_across = f.org_across + hit.t * f.dir_across;
         const Vec3<L> across = nearly_across - f.axis * dot(nearly_across, f.axis);
         const L distance = length(across);

@@ -59,7 +59,9 @@ struct Cylinder {
         const MaskOf<L> on_side = hit.part == IndexOf<L>(0);
         const MaskOf<L> at_from = hit.part == IndexOf<L>(1);
         const L height = choose(on_side, f.org_along + hit.t * f.dir_along, choose(at_from, L(0), f.height));
-        const Vec3<L> across = f.org_across + hit.t * f.dir_across;
+        // Made perpendicular once more: what is left along the axis grows with the ray's distance.
+        const Vec3<L> nearly_across = f.org_across + hit.t * f.dir_across;
+        const Vec3<L> across = nearly_across - f.axis * dot(nearly_across, f.axis);
         const Vec3<L> radial = normalize(across);
         const Vec3<L> normal = choose(on_side, radial, choose(at_from, -f.axis, f.axis));
         const Vec3<L> from_axis = choose(on_side, radial * L(radius), across);
