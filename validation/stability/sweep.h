@@ -15,7 +15,7 @@ namespace scc::validation {
 inline constexpr double kept_error = 1e-4;
 /// The part of a picture's pixels that may be further off: an edge between two pixels' rays may fall on
 /// either side of one that it touches.
-inline constexpr double kept_wrong_pixels = 0.005;
+inline constexpr double kept_wrong_pixels = 0.02;
 
 /// How one picture compares with what is expected.
 struct Reading {
