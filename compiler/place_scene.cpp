@@ -1,11 +1,9 @@
 #include "compiler/place_scene.h"
 
-#include "compiler/bounds.h"
 #include "compiler/ir/objects.h"
 
 #include <fmt/core.h>
 
-#include <type_traits>
 #include <variant>
 
 namespace scc::compiler {
@@ -77,25 +75,6 @@ void place_scene(ir::Scene& scene, double scale, const Vec3<double>& offset) {
         }
     }
     placing.apply(scene.camera);
-}
-
-bool step_back(ir::Scene& scene, double factor) {
-    const runtime::Bounds<double> box = world_bounds(scene);
-    runtime::Camera<double>& camera = scene.camera;
-    if (camera.projection != runtime::Projection::perspective || !(box.min.x <= box.max.x)) {
-        return false;
-    }
-    const double distance = dot(camera.eye - (box.min + box.max) * 0.5, camera.n);
-    if (!(distance > 0)) {
-        return false;
-    }
-    const double back = (factor - 1) * distance;
-    camera.eye = camera.eye + camera.n * back;
-    camera.half_height /= factor;
-    camera.near += back;
-    camera.far += back;
-    camera.focus += back;
-    return true;
 }
 
 std::optional<std::string> tied_to_place(const ir::Scene& scene) {

@@ -11,11 +11,6 @@ namespace scc::compiler {
 /// stays the same. Of a scene that the passes have not run over.
 void place_scene(ir::Scene& scene, double scale, const runtime::Vec3<double>& offset);
 
-/// Moves the perspective camera backwards, `factor` times as far from the middle of the scene's bounded
-/// objects, and narrows its view as much. False for another camera, or where that has no effect: nothing is
-/// bounded, or the camera is in the middle.
-bool step_back(ir::Scene& scene, double factor);
-
 /// Why a picture changes when the scene is placed elsewhere or in another size; nothing if it does not.
 std::optional<std::string> tied_to_place(const ir::Scene& scene);
 
