@@ -1,11 +1,9 @@
 #include "compiler/place_scene.h"
 
-#include "compiler/bounds.h"
 #include "compiler/ir/objects.h"
 
 #include <fmt/core.h>
 
-#include <type_traits>
 #include <variant>
 
 namespace scc::compiler {

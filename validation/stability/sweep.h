@@ -13,9 +13,9 @@ namespace scc::validation {
 
 /// What a picture may be off where nothing has an edge, in linear light.
 inline constexpr double kept_error = 1e-4;
-/// The part of a picture's pixels that may be further off: an edge between two pixels' rays may fall on
-/// either side of one that it touches.
-inline constexpr double kept_wrong_pixels = 0.005;
+/// The part of a picture's pixels that may be further off, all of them at edges: there what is seen may lie a
+/// little beside, which auto's trial excuses for up to 5 %. The rim of a glass ball is 1 % in float.
+inline constexpr double kept_wrong_pixels = 0.02;
 
 /// How one picture compares with what is expected.
 struct Reading {

@@ -34,7 +34,7 @@ TEST_F(CommandLine, HelpNamesEveryCommand) {
     const auto result = scc({"--help"});
     EXPECT_TRUE(result.ok());
     for (const char* command : {"check", "fmt", "params", "render", "build", "export", "import", "validate",
-                                "explain", "compare", "doctor", "reference"}) {
+                                "stability", "explain", "compare", "doctor", "reference"}) {
         EXPECT_NE(result.out.find(command), std::string::npos) << command;
     }
 }
@@ -61,7 +61,9 @@ TEST_F(CommandLine, UsageMistakesExitWith2) {
                             {"export", "maya", "s.scn", "-o", "a"},
                             {"import", "maya", "s.scn", "-o", "a"},
                             {"import", "nff", "s.scn"},
-                            {"validate", "s.scn", "--against", "maya", "--report", "r"}}) {
+                            {"validate", "s.scn", "--against", "maya", "--report", "r"},
+                            {"stability", "s.scn", "--against", "maya"},
+                            {"stability", "no_such_case"}}) {
         const auto result = scc(arguments);
         std::string line;
         for (const std::string& argument : arguments) {
@@ -645,6 +647,60 @@ TEST_F(CommandLine, ImagesOfAnExportLieBesideIt) {
     EXPECT_EQ(to_stdout.out, "");
     EXPECT_EQ(scc({"export", "blender", "s.scn", "-o", "-"}).code, 0);
     EXPECT_EQ(files(), (std::vector<std::string>{"out", "q.png", "s.scn"}));
+}
+
+TEST_F(CommandLine, StabilityKeepsWhatIsRecorded) {
+    const auto result =
+        scc({"stability", "shininess", "grazing", "attenuation_up", "--size", "32x32", "--json"});
+    ASSERT_EQ(result.code, 0) << result.out << result.err;
+    const auto sweeps = nlohmann::json::parse(result.out)["sweeps"];
+    ASSERT_EQ(sweeps.size(), 3U);
+    for (const auto& sweep : sweeps) {
+        EXPECT_EQ(sweep["thresholds"]["auto"], sweep["recorded_threshold"]) << sweep["name"];
+        EXPECT_TRUE(sweep["auto"]["wrong_picks"].empty()) << sweep["name"];
+    }
+    EXPECT_LT(sweeps[0]["thresholds"]["float"], 8) << "where float fails auto takes double";
+    EXPECT_EQ(sweeps[0]["steps"][8]["chosen"], "double");
+}
+
+TEST_F(CommandLine, StabilityMovesAndScalesAUsersScene) {
+    write("s.scn", "perspective_camera { eye = (1, 2, 5) }\n"
+                   "point_light { position = (3, 4, 5), attenuation = (0.5, 0.1, 0.02) }\n"
+                   "rectangle_light { corner = (-3, 3, 1), edge_u = (1, 0, 0), edge_v = (0, 0, 1) }\n"
+                   "directional_light { towards = (1, 2, 3), color = rgb(0.2, 0.2, 0.2) }\n"
+                   "for (i in 0..3) { sphere { center = (i - 1, 0, -1), radius = 0.4 } }\n"
+                   "difference { box { }, sphere { radius = 1.2 }, transform = rotate_y(30deg) }\n"
+                   "plane { offset = -1 }\n");
+    const auto result = scc({"stability", "s.scn", "--size", "24x24", "--json", "--report", "out"});
+    ASSERT_EQ(result.code, 0) << result.out << result.err;
+    const auto sweeps = nlohmann::json::parse(result.out)["sweeps"];
+    ASSERT_EQ(sweeps.size(), 3U);
+    EXPECT_EQ(sweeps[0]["name"], "s/offset");
+    EXPECT_GE(sweeps[0]["thresholds"]["double"], 9);
+    EXPECT_LT(sweeps[0]["thresholds"]["float"], 6);
+    EXPECT_EQ(sweeps[1]["thresholds"]["double"], -12);
+    EXPECT_EQ(sweeps[2]["thresholds"]["double"], 12);
+    EXPECT_EQ(nlohmann::json::parse(read("out/report.json"))["sweeps"], sweeps);
+    EXPECT_NE(read("out/index.html").find("s/offset"), std::string::npos);
+}
+
+TEST_F(CommandLine, StabilityListsItsCasesAndRefusesWhatItCannotSweep) {
+    const auto list = scc({"stability", "--list"});
+    EXPECT_EQ(list.code, 0);
+    EXPECT_NE(list.out.find("cylinder_afar"), std::string::npos);
+    const auto unknown = scc({"stability", "ofset"});
+    EXPECT_EQ(unknown.code, 2);
+    EXPECT_NE(unknown.err.find("did you mean `offset`?"), std::string::npos) << unknown.err;
+    write("s.scn",
+          std::string(small_scene) +
+              "plane { material = phong { diffuse = fn(s: surface) = rgb(1, 1, 1) * s.world.x } }\n");
+    const auto tied = scc({"stability", "s.scn", "--report", "out"});
+    EXPECT_EQ(tied.code, 1);
+    EXPECT_NE(tied.err.find("depends on places in the world"), std::string::npos) << tied.err;
+    write("s.scn", "sphere { radius = -1 }\n");
+    EXPECT_EQ(scc({"stability", "s.scn", "--report", "out"}).code, 1);
+    EXPECT_EQ(scc({"stability", "none.scn"}).code, 3);
+    EXPECT_EQ(files(), (Lines{"s.scn"}));
 }
 
 } // namespace scc::cli::test
