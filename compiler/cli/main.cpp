@@ -63,9 +63,10 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", SCC_VERSION);
     app.footer(examples);
     cli::Run selected;
-    for (auto* add : {cli::add_check, cli::add_fmt, cli::add_params, cli::add_render, cli::add_build,
-                      cli::add_export, cli::add_import, cli::add_validate, cli::add_stability, cli::add_explain, cli::add_compare,
-                      cli::add_lsp, cli::add_doctor, cli::add_reference}) {
+    for (auto* add :
+         {cli::add_check, cli::add_fmt, cli::add_params, cli::add_render, cli::add_build, cli::add_export,
+          cli::add_import, cli::add_validate, cli::add_stability, cli::add_explain, cli::add_compare,
+          cli::add_lsp, cli::add_doctor, cli::add_reference}) {
         add(app, selected);
     }
     try {

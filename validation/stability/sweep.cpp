@@ -90,7 +90,8 @@ Reading read(const runtime::Image& reference, const runtime::Image& other) {
     const Metrics metrics = compare(reference, other);
     return {.drawn = true,
             .reason = {},
-            .max_error = metrics.away_from_edges.max_error,
+            .max_error =
+                (metrics.away_from_edges.pixels > 0 ? metrics.away_from_edges : metrics.all).max_error,
             .wrong =
                 static_cast<double>(metrics.all.above(kept_error)) / static_cast<double>(metrics.all.pixels)};
 }

@@ -21,7 +21,7 @@ inline constexpr double kept_wrong_pixels = 0.02;
 struct Reading {
     bool drawn = false;
     std::string reason;   ///< why there is none
-    double max_error = 0; ///< away from edges
+    double max_error = 0; ///< away from edges; of a picture of nothing but edges, anywhere
     double wrong = 0;     ///< part of all pixels that are off by more than `kept_error`
 
     bool kept() const { return drawn && max_error <= kept_error && wrong <= kept_wrong_pixels; }

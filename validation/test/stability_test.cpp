@@ -88,6 +88,20 @@ TEST(Stability, PicturesAreReadAwayFromEdgesAndAtThem) {
     EXPECT_FALSE(reading(0, 0.5).kept()) << "too much of it at edges";
 }
 
+TEST(Stability, APictureOfNothingButEdgesIsReadEverywhere) {
+    runtime::Image checks(32, 32);
+    for (int y = 0; y < 32; ++y) {
+        for (int x = 0; x < 32; ++x) {
+            checks.at(x, y)[0] = static_cast<float>((x + y) % 2);
+        }
+    }
+    EXPECT_TRUE(read(checks, checks).kept());
+    runtime::Image other = checks;
+    other.at(5, 5)[0] += 0.01F;
+    EXPECT_FALSE(read(checks, other).kept());
+    EXPECT_NEAR(read(checks, other).digits(), 2, 1e-3);
+}
+
 TEST(Stability, TheReportHoldsTheNumbersAndEscapesTexts) {
     StabilityReport report;
     report.width = report.height = 64;
