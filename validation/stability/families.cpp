@@ -20,7 +20,7 @@ constexpr Family table[] = {
     {"scale_up", "scale", "size of the scene, up", 0, 12, neutral, everyone, 12, none},
     {"distance", "distance", "distance of the camera, parallel projection", 1, 15, neutral, everyone, 12,
      rounding},
-    {"cylinder_afar", "cylinder_afar", "distance from cylinders and cones", 1, 15, neutral, everyone, 11,
+    {"cylinder_afar", "cylinder_afar", "distance from cylinders and cones", 1, 15, neutral, everyone, 12,
      rounding},
     {"shininess", "shininess", "shininess", 0, 8, formula, everyone, 8, none},
     {"gap", "gap", "gap between two faces", -1, -15, formula, everyone, -15, none},
