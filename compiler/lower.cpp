@@ -3,11 +3,10 @@
 #include "compiler/bounds.h"
 #include "compiler/field_bounds.h"
 #include "compiler/function_builder.h"
-#include "compiler/heightfield.h"
 #include "compiler/ir/objects.h"
 #include "compiler/lower_material.h"
+#include "compiler/lower_mesh.h"
 #include "compiler/lower_view.h"
-#include "compiler/mesh_cache.h"
 #include "compiler/schema.h"
 #include "compiler/shape_rules.h"
 #include "compiler/values.h"
@@ -85,6 +84,7 @@ public:
     ObjectLowering(const lang::Module& module, const LowerOptions& options, MaterialTable& materials,
                    ir::Scene& scene, lang::Diagnostics& diagnostics)
         : options_(options), scene_(scene), diagnostics_(diagnostics), materials_(materials),
+          meshes_(options, scene, diagnostics),
           paths_may_meet_(std::any_of(module.items.begin(), module.items.end(),
                                       [](const lang::ThingPtr& item) { return has_path_in_name(*item); })) {}
 
@@ -147,25 +147,12 @@ private:
     std::optional<ir::Shape> implicit_shape(const Thing& thing);
     std::optional<runtime::Container<double>> container(const lang::FieldValue& within,
                                                         std::string_view contained);
-    std::optional<ir::Shape> heightfield_shape(const Thing& thing);
-    std::optional<std::uint32_t> make_heightfield(const Thing& thing);
-    std::uint32_t add_mesh(ir::Mesh mesh);
-    const std::string& opening_of(std::uint32_t mesh);
-    std::optional<ir::Shape> mesh_shape(const Thing& thing);
-    std::optional<std::uint32_t> load_mesh(const Thing& thing, const std::string& file, MeshNormals normals,
-                                           bool with_uv);
-    const std::filesystem::path& folder_of(const Thing& mesh) const;
 
     const LowerOptions& options_;
     ir::Scene& scene_;
     lang::Diagnostics& diagnostics_;
     MaterialTable& materials_;
-    using MeshKey = std::tuple<std::filesystem::path, std::string, MeshNormals, bool>; ///< folder, name
-    std::map<MeshKey, std::optional<std::uint32_t>> meshes_;
-    std::map<const Thing*, std::optional<std::uint32_t>> heightfields_;
-    std::set<std::string> mesh_names_;
-    std::map<std::uint32_t, std::string> openings_; ///< of meshes in solids; empty: closed
-    std::optional<host::Cache> cache_;              ///< once a mesh asks for it
+    MeshTable meshes_;
     std::set<std::string> paths_;
     std::vector<lang::ThingPtr> made_materials_; ///< of colours of lines
     std::vector<lang::Value> line_colors_;       ///< of the scene's polylines
@@ -237,26 +224,30 @@ Result made_by_description(std::string_view name, const Make& make) {
     return result;
 }
 
-std::optional<ir::Shape> ObjectLowering::make_shape(const Thing& thing) {
-    if (thing.constructor->name == runtime::Mesh<double>::name) {
-        return mesh_shape(thing);
-    }
-    if (thing.constructor->name == runtime::Implicit<double>::name) {
-        return implicit_shape(thing);
-    }
-    if (thing.constructor->name == "heightfield") {
-        return heightfield_shape(thing);
-    }
-    return made_by_description<std::optional<ir::Shape>>(
-        thing.constructor->name,
-        [&]<class Shape>(std::type_identity<Shape>) { return described_shape<Shape>(thing); });
-}
-
 std::string own_name(const Thing& thing) {
     if (const lang::FieldValue* name = thing.find("name"); name != nullptr && !to_text(name->value).empty()) {
         return to_text(name->value);
     }
     return thing.name.empty() ? std::string(thing.constructor->name) : thing.name;
+}
+
+std::optional<ir::Shape> mesh(std::optional<std::uint32_t> index) {
+    return index ? std::optional<ir::Shape>(runtime::Mesh<double>{*index}) : std::nullopt;
+}
+
+std::optional<ir::Shape> ObjectLowering::make_shape(const Thing& thing) {
+    if (thing.constructor->name == runtime::Mesh<double>::name) {
+        return mesh(meshes_.of_file(thing));
+    }
+    if (thing.constructor->name == runtime::Implicit<double>::name) {
+        return implicit_shape(thing);
+    }
+    if (thing.constructor->name == "heightfield") {
+        return mesh(meshes_.of_heights(thing, own_name(thing)));
+    }
+    return made_by_description<std::optional<ir::Shape>>(
+        thing.constructor->name,
+        [&]<class Shape>(std::type_identity<Shape>) { return described_shape<Shape>(thing); });
 }
 
 // ---- implicit surfaces
@@ -324,105 +315,6 @@ std::optional<ir::Shape> ObjectLowering::implicit_shape(const Thing& thing) {
     scene_.functions.push_back(std::move(function));
     return ir::Shape{
         runtime::Implicit<double>{static_cast<std::int32_t>(scene_.functions.size() - 1), *within}};
-}
-
-// ---- meshes
-// ------------------------------------------------------------------------------------------------
-
-std::optional<ir::Shape> ObjectLowering::mesh_shape(const Thing& thing) {
-    static const std::map<std::string, MeshNormals, std::less<>> kinds{
-        {"file", MeshNormals::file}, {"smooth", MeshNormals::smooth}, {"flat", MeshNormals::flat}};
-    const std::string file = to_text(*thing.get("file"));
-    const MeshNormals normals = kinds.at(to_text(*thing.get("normals")));
-    const bool with_uv = to_bool(*thing.get("uv"));
-    auto [place, is_new] = meshes_.try_emplace({folder_of(thing), file, normals, with_uv});
-    if (is_new) {
-        place->second = load_mesh(thing, file, normals, with_uv);
-    }
-    if (!place->second) {
-        return std::nullopt;
-    }
-    return ir::Shape{runtime::Mesh<double>{*place->second}};
-}
-
-/// That of the file in which the mesh is written.
-const std::filesystem::path& ObjectLowering::folder_of(const Thing& mesh) const {
-    const auto found = options_.import_folders.find(place_of(mesh, "file").file);
-    return found == options_.import_folders.end() ? options_.assets.scene_folder : found->second;
-}
-
-std::optional<std::uint32_t> ObjectLowering::load_mesh(const Thing& thing, const std::string& file,
-                                                       MeshNormals normals, bool with_uv) {
-    const lang::Span place = place_of(thing, "file");
-    const std::string quoted = fmt::format("`{}`", file);
-    const Asset asset = find_asset(options_.assets, folder_of(thing), file);
-    if (asset.status == AssetStatus::outside) {
-        diagnostics_.report(Diag::asset_outside, place, quoted);
-        return std::nullopt;
-    }
-    if (asset.status == AssetStatus::missing) {
-        diagnostics_.report(Diag::missing_asset, place, quoted,
-                            "there is no such file in the scene's folder");
-        return std::nullopt;
-    }
-    try {
-        if (options_.keep_meshes && !cache_) {
-            cache_ = host::Cache::of_user();
-        }
-        LoadedMesh loaded = compiler::load_mesh(asset.path, normals, cache_.value_or(host::Cache()));
-        for (const std::string& warning : loaded.warnings) {
-            diagnostics_.report(Diag::suspect_mesh, place, quoted, warning);
-        }
-        if (!with_uv) {
-            loaded.mesh.uvs = {};
-            loaded.mesh.uv_indices = {};
-        }
-        return add_mesh(std::move(loaded.mesh));
-    } catch (const MeshError& error) {
-        diagnostics_.report(Diag::broken_mesh, place, quoted, error.what());
-        return std::nullopt;
-    }
-}
-
-std::uint32_t ObjectLowering::add_mesh(ir::Mesh mesh) {
-    const std::string wanted = mesh.name;
-    for (int i = 2; !mesh_names_.insert(mesh.name).second; ++i) {
-        mesh.name = fmt::format("{} {}", wanted, i);
-    }
-    scene_.meshes.push_back(std::move(mesh));
-    return static_cast<std::uint32_t>(scene_.meshes.size() - 1);
-}
-
-/// A value that is used in several places is one mesh.
-std::optional<ir::Shape> ObjectLowering::heightfield_shape(const Thing& thing) {
-    auto [known, is_new] = heightfields_.try_emplace(&thing);
-    if (is_new) {
-        known->second = make_heightfield(thing);
-    }
-    return known->second ? std::optional<ir::Shape>(runtime::Mesh<double>{*known->second}) : std::nullopt;
-}
-
-std::optional<std::uint32_t> ObjectLowering::make_heightfield(const Thing& thing) {
-    const lang::FieldValue& field = *thing.find("field");
-    FunctionBuilder builder(options_.images);
-    const std::vector<lang::Scalar> results = lang::trace_at_pair(std::get<lang::ClosurePtr>(field.value.v),
-                                                                  builder, diagnostics_, options_.images);
-    if (results.size() != 1) {
-        return std::nullopt;
-    }
-    const auto& size = std::get<lang::Vec2Value>(thing.get("size")->v).v;
-    const auto& cells = std::get<lang::Vec2Value>(thing.get("cells")->v).v;
-    HeightfieldMesh made = heightfield_mesh(own_name(thing), builder.finish(results),
-                                            {size[0].value, size[1].value, to_number(*thing.get("height")),
-                                             static_cast<std::size_t>(cells[0].value),
-                                             static_cast<std::size_t>(cells[1].value)});
-    if (made.bad) {
-        diagnostics_.report(Diag::not_finite, field.value_span,
-                            fmt::format("the height at ({:.6g}, {:.6g})", made.bad->u, made.bad->v),
-                            fmt::format("{:.6g}", made.bad->value));
-        return std::nullopt;
-    }
-    return add_mesh(std::move(made.mesh));
 }
 
 // ---- objects
@@ -674,7 +566,7 @@ bool ObjectLowering::add_member(const Thing& thing, const Operand& here) {
         return false;
     }
     const auto* mesh = std::get_if<runtime::Mesh<double>>(&*shape);
-    const std::string open = mesh != nullptr ? opening_of(mesh->mesh) : std::string(open_part(*shape));
+    const std::string open = mesh != nullptr ? meshes_.opening(mesh->mesh) : std::string(open_part(*shape));
     if (!open.empty()) {
         diagnostics_.report(Diag::open_solid, mesh != nullptr ? thing.span : place_of(thing, "caps"),
                             fmt::format("this {} {}", thing.constructor->name, open), here.solid);
@@ -682,15 +574,6 @@ bool ObjectLowering::add_member(const Thing& thing, const Operand& here) {
     }
     add_leaf(*shape, here.path, here, thing.span);
     return true;
-}
-
-/// Each mesh is looked at once.
-const std::string& ObjectLowering::opening_of(std::uint32_t mesh) {
-    const auto [known, is_new] = openings_.try_emplace(mesh);
-    if (is_new) {
-        known->second = open_part(scene_.meshes[mesh]);
-    }
-    return known->second;
 }
 
 bool ObjectLowering::add_contained(const Thing& thing, const Operand& here) {

@@ -167,10 +167,19 @@ void lower_window(const Thing& camera, ir::Scene& scene, lang::Diagnostics& diag
 
 // ---- lights --------------------------------------------------------------------------------------------
 
+/// By which a lamp's power multiplies its colour: the flux over the sphere is its intensity, and a white
+/// surface scatters 1/pi of what arrives into each direction.
+double strength_of(const Thing& light) {
+    const lang::FieldValue* power = light.find("power");
+    return power != nullptr ? to_number(power->value) / (4 * std::numbers::pi * std::numbers::pi) : 1;
+}
+
 ir::LightColors colors_of(const Thing& light, const Rendition& by) {
-    const runtime::Rgb<double> diffuse = by.rendered(*light.get("color"), ColorRole::light);
+    const double strength = strength_of(light);
+    const runtime::Rgb<double> diffuse = by.rendered(*light.get("color"), ColorRole::light) * strength;
     const lang::FieldValue* specular = light.find("specular");
-    return {diffuse, specular != nullptr ? by.rendered(specular->value, ColorRole::light) : diffuse};
+    return {diffuse,
+            specular != nullptr ? by.rendered(specular->value, ColorRole::light) * strength : diffuse};
 }
 
 /// What all lights have that shine from points.
@@ -178,7 +187,12 @@ runtime::PointLight<double> source_at(const Thing& thing, const char* position,
                                       lang::Diagnostics& diagnostics) {
     runtime::PointLight<double> light;
     light.position = to_vec3(*thing.get(position));
-    const Vec3<double> k = to_vec3(*thing.get("attenuation"));
+    const bool has_power = thing.find("power") != nullptr;
+    if (has_power && thing.find("attenuation") != nullptr) {
+        diagnostics.report(Diag::impossible_light, place_of(thing, "attenuation"),
+                           "this light has both `attenuation` and `power`, which falls off as 1 / d^2");
+    }
+    const Vec3<double> k = has_power ? Vec3<double>{0, 0, 1} : to_vec3(*thing.get("attenuation"));
     light.kc = k.x;
     light.kl = k.y;
     light.kq = k.z;

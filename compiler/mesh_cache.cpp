@@ -19,7 +19,7 @@ namespace scc::compiler {
 namespace {
 
 // To be raised when the same file gives other values than before, or they are laid out otherwise.
-constexpr std::string_view mesh_format = "mesh 2", hierarchy_format = "hierarchy 2";
+constexpr std::string_view mesh_format = "mesh 3", hierarchy_format = "hierarchy 2";
 
 /// Below this, parsing takes about as long as finding.
 constexpr std::uintmax_t smallest_kept_file = 32 * 1024;
@@ -66,7 +66,7 @@ void store_mesh(const LoadedMesh& loaded) {
     host::ValuesWriter values;
     values.reserve(mesh.positions.size_bytes() + mesh.normals.size_bytes() + mesh.indices.size_bytes() +
                    mesh.normal_indices.size_bytes() + mesh.uvs.size_bytes() + mesh.uv_indices.size_bytes() +
-                   4096);
+                   sizeof(std::uint32_t) * loaded.part_of.size() + 4096);
     values.add(static_cast<std::uint64_t>(loaded.warnings.size()));
     for (const std::string& warning : loaded.warnings) {
         values.add_text(warning);
@@ -78,6 +78,11 @@ void store_mesh(const LoadedMesh& loaded) {
     values.add(mesh.normal_indices);
     values.add(mesh.uvs);
     values.add(mesh.uv_indices);
+    values.add(static_cast<std::uint64_t>(loaded.parts.size()));
+    for (const std::string& part : loaded.parts) {
+        values.add_text(part);
+    }
+    values.add(std::span<const std::uint32_t>(loaded.part_of));
     mesh.cache.store("meshes", mesh.key, values.take_unsealed());
 }
 
@@ -101,6 +106,14 @@ std::optional<LoadedMesh> find_mesh(const host::Cache& cache, const std::string&
         values.read(loaded.mesh.normal_indices);
         values.read(loaded.mesh.uvs);
         values.read(loaded.mesh.uv_indices);
+        std::uint64_t parts = 0;
+        values.read(parts);
+        for (std::uint64_t i = 0; i < parts; ++i) {
+            loaded.parts.push_back(values.read_text());
+        }
+        std::span<const std::uint32_t> part_of;
+        values.read(part_of);
+        loaded.part_of.assign(part_of.begin(), part_of.end());
         loaded.mesh.owner = std::make_shared<const host::Cache::Entry>(std::move(*entry));
         return loaded;
     } catch (const host::FileError&) {

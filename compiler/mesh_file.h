@@ -20,7 +20,12 @@ struct MeshError : std::runtime_error {
 struct LoadedMesh {
     ir::Mesh mesh;
     std::vector<std::string> warnings;
+    std::vector<std::string> parts;     ///< what stands after `usemtl`, once each; empty: the file has none
+    std::vector<std::uint32_t> part_of; ///< each triangle's, in `parts`, if there are some
 };
+
+/// The part that faces before the first `usemtl` are in.
+inline constexpr std::string_view unnamed_part = "none";
 
 /// The file's bytes. Throws MeshError.
 std::string read_obj(const std::filesystem::path& path);
@@ -34,5 +39,9 @@ LoadedMesh parse_obj(std::string_view text, MeshNormals normals);
 
 /// Both; the mesh has the file's name.
 LoadedMesh load_obj(const std::filesystem::path& path, MeshNormals normals);
+
+/// The triangles of one part with the vertices that they use, of the whole mesh's box, normals and place.
+/// Throws MeshError if there is no such part.
+ir::Mesh select_part(const LoadedMesh& whole, std::string_view part);
 
 } // namespace scc::compiler

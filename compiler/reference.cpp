@@ -412,7 +412,7 @@ std::string functions_text() {
         text += is_statement ? block(row.example)
                              : block(fmt::format("print({}) // {}", row.example, value_of(row.example)));
     }
-    return text + "Not supported yet: `spectrum`, `metal`.\n\n";
+    return text;
 }
 
 template <class Rows>

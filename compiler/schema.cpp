@@ -154,14 +154,14 @@ void add_shapes(std::vector<Constructor>& rows, runtime::TypeList<All...>) {
 
 // ---- everything else ------------------------------------------------------------------------------------
 
-Field unsupported(std::string_view name, Type type) {
-    return {.name = name, .type = std::move(type), .supported = false, .doc = "not supported yet"};
-}
-
 Constructor mesh() {
     Constructor row{.name = "mesh", .type = TypeKind::shape, .doc = "the triangles of a Wavefront OBJ file"};
     row.fields = {
         {.name = "file", .type = TypeKind::string, .required = true, .asset = true, .doc = "Wavefront OBJ"},
+        {.name = "part",
+         .type = TypeKind::string,
+         .default_value = text(""),
+         .doc = "only the faces after `usemtl` and this name; `none`: before the first; empty: all of them"},
         {.name = "normals",
          .type = TypeKind::string,
          .default_value = text("file"),
@@ -391,7 +391,13 @@ void add_source_fields(Constructor& row) {
                           .limits = non_negative,
                           .doc = "(kc, kl, kq): at distance d the light is divided by kc + kl d + kq d^2"});
     add_light_fields(row);
-    row.fields.push_back(unsupported("power", TypeKind::number));
+    row.fields.push_back(
+        {.name = "power",
+         .type = TypeKind::number,
+         .limits = positive("a power is greater than 0"),
+         .doc = "in watts, instead of `attenuation`: the radiant flux of a lamp that shines alike "
+                "in all directions, as Blender has it. `color` is multiplied by power / (4 pi^2), "
+                "what a white surface sends on, and divided by d^2; lengths count as metres"});
 }
 
 Constructor point_light() {

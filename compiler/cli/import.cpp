@@ -1,5 +1,7 @@
 #include "compiler/cli/commands.h"
 #include "compiler/import/nff.h"
+#include "compiler/import/obj.h"
+#include "compiler/mesh_file.h"
 #include "lang/utf8.h"
 #include "runtime/host/options.h"
 
@@ -32,7 +34,43 @@ void say(const std::string& file, nff::Place place, const char* kind, const std:
     fmt::print(stderr, "{}:{}:{}: {}: {}\n", lang::printable(file), place.line, place.column, kind, text);
 }
 
-int import_scene(const Options& options) {
+/// How a scene at `scene` names a file in its folder or below; empty: it is elsewhere.
+std::string name_from(const std::filesystem::path& scene, const std::filesystem::path& file) {
+    const std::filesystem::path folder =
+        scene == "-" ? std::filesystem::current_path() : std::filesystem::absolute(scene).parent_path();
+    std::error_code error;
+    const std::filesystem::path name = std::filesystem::relative(file, folder, error);
+    return error || *name.begin() == ".." ? "" : name.generic_string();
+}
+
+int import_mesh(const Options& options) {
+    const std::filesystem::path file = options.file;
+    const std::string text = read_text_file(options.file);
+    std::string name = name_from(options.output, file);
+    const bool is_elsewhere = name.empty();
+    if (is_elsewhere) {
+        name = file.filename().string();
+    }
+    std::vector<std::string> warnings;
+    std::string scene;
+    try {
+        scene = compiler::obj::scene_text(text, file.parent_path(), name, warnings);
+    } catch (const compiler::MeshError& error) {
+        fmt::print(stderr, "{}: error: {}\n", lang::printable(options.file), lang::printable(error.what()));
+        return host::exit_scene;
+    }
+    if (is_elsewhere) {
+        warnings.push_back(fmt::format("the scene's folder is another one: it needs `--asset-path {}`",
+                                       file.parent_path().string()));
+    }
+    for (const std::string& warning : warnings) {
+        fmt::print(stderr, "{}: warning: {}\n", lang::printable(options.file), lang::printable(warning));
+    }
+    write_result(options.output, scene);
+    return host::exit_fine;
+}
+
+int import_nff(const Options& options) {
     const std::string text = read_text_file(options.file);
     std::string scene;
     std::vector<nff::Warning> warnings;
@@ -58,15 +96,22 @@ int import_scene(const Options& options) {
 void add_import(CLI::App& app, Run& selected) {
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("import", "turn another format's scene into a .scn file");
-    command->add_option("FORMAT", options->format, "nff (Eric Haines' Neutral File Format)")
+    command
+        ->add_option(
+            "FORMAT", options->format,
+            "nff (Eric Haines' Neutral File Format) or obj (a Wavefront mesh, its parts and materials)")
         ->required()
-        ->check(CLI::IsMember({"nff"}));
+        ->check(CLI::IsMember({"nff", "obj"}));
     command->add_option("FILE", options->file, "the scene in that format")->required();
     command->add_option("-o,--output", options->output, "the scene, a .scn file; - for stdout")
         ->required()
         ->type_name("OUT.scn");
     command->footer("\nWhat the format says and a scene cannot is a comment at its place and a warning.");
-    command->callback([&selected, options] { selected = [options] { return import_scene(*options); }; });
+    command->callback([&selected, options] {
+        selected = [options] {
+            return options->format == "obj" ? import_mesh(*options) : import_nff(*options);
+        };
+    });
 }
 
 } // namespace scc::cli

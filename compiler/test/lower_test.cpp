@@ -167,6 +167,28 @@ TEST(Lower, LightSaysWhereItIsInOneWay) {
     EXPECT_FALSE(compile("directional_light { }\nperspective_camera { }").fine);
 }
 
+/// The radiance of a white surface d away, with the light above it, is power / (4 pi) / d^2 / pi.
+TEST(Lower, PowerIsOfALampThatShinesInAllDirections) {
+    const Compiled c =
+        compile("sphere { }\nperspective_camera { }\n"
+                "point_light { position = (0, 5, 0), power = 100, color = rgb(1, 0.5, 0), specular = "
+                "rgb(0, 0, 2) }\n");
+    ASSERT_TRUE(c.fine) << c.messages;
+    const auto& light = std::get<runtime::PointLight<double>>(c.scene.lights.at(0).light);
+    EXPECT_NEAR(light.diffuse.r, 100 / 39.478417604357434, 1e-13);
+    EXPECT_NEAR(light.diffuse.g, 50 / 39.478417604357434, 1e-13);
+    EXPECT_NEAR(light.specular.b, 200 / 39.478417604357434, 1e-13);
+    EXPECT_EQ(light.kc, 0);
+    EXPECT_EQ(light.kl, 0);
+    EXPECT_EQ(light.kq, 1);
+    const Compiled both =
+        compile("sphere { }\nperspective_camera { }\n"
+                "point_light { position = (0, 5, 0), power = 100, attenuation = (1, 0, 0) }\n");
+    EXPECT_NE(both.messages.find("this light has both `attenuation` and `power`, which falls off as 1 / d^2"),
+              std::string::npos)
+        << both.messages;
+}
+
 TEST(Lower, SpotLightsHaveAConeAndRectangleLightsAGrid) {
     const Compiled c = compile(
         "spot_light { position = (0, 4, 0), target = (0, 1, 0), inner = 0deg, outer = 60deg }\n"

@@ -96,6 +96,24 @@ TEST_F(MeshCache, GivesTheSameBitsAndWarningsAgain) {
     }
 }
 
+TEST_F(MeshCache, KeepsParts) {
+    const std::string grid = wavy_grid(60);
+    const std::size_t half = grid.find("\nf ", grid.size() / 2 + grid.size() / 4) + 1;
+    test::save(file_, grid.substr(0, half) + "usemtl upper\n" + grid.substr(half));
+    const LoadedMesh fresh = load_obj(file_, MeshNormals::smooth);
+    EXPECT_EQ(fresh.parts, (std::vector<std::string>{"upper", "none"}));
+    load();
+    const LoadedMesh kept = load();
+    EXPECT_EQ(kept.parts, fresh.parts);
+    EXPECT_EQ(kept.part_of, fresh.part_of);
+    const ir::Mesh upper = select_part(kept, "upper"), lower = select_part(kept, "none");
+    EXPECT_EQ(upper.indices.size() + lower.indices.size(), kept.mesh.indices.size());
+    EXPECT_NE(upper.key, lower.key);
+    EXPECT_NE(upper.key, kept.mesh.key);
+    EXPECT_EQ(build_mesh(upper, {}).data.triangle_count, upper.indices.size() / 3);
+    EXPECT_EQ(build_mesh(upper, {}).data.triangle_count, upper.indices.size() / 3); // from the cache
+}
+
 TEST_F(MeshCache, HoldsTheMeshUntilItsLastUse) {
     content(load());
     BuiltMesh built;

@@ -61,6 +61,7 @@ TEST_F(CommandLine, UsageMistakesExitWith2) {
                             {"export", "maya", "s.scn", "-o", "a"},
                             {"import", "maya", "s.scn", "-o", "a"},
                             {"import", "nff", "s.scn"},
+                            {"import", "obj"},
                             {"validate", "s.scn", "--against", "maya", "--report", "r"},
                             {"stability", "s.scn", "--against", "maya"},
                             {"stability", "no_such_case"}}) {
@@ -373,48 +374,6 @@ TEST_F(CommandLine, ComparesPictures) {
               0);
     EXPECT_EQ(scc({"compare", "a.exr", "c.exr"}).code, 1);
     EXPECT_EQ(scc({"compare", "a.exr", "none.exr"}).code, 3);
-}
-
-const std::string small_nff = "v\nfrom 0 -5 2\nat 0 0 0\nup 0 0 1\nangle 40\nhither 1\nresolution 32 24\n"
-                              "l 3 -4 5\nf 1 0.5 0.2 0.8 0.2 20 0.5 1.5\ns 0 0 0 1\n"
-                              "f 1 0.5 0.2 0.8 0.2 20 0 1\nc 2 0 0 0.5 2 0 1 0\n";
-
-TEST_F(CommandLine, ImportsAndRenders) {
-    write("a.nff", small_nff);
-    const auto result = scc({"import", "nff", "a.nff", "-o", "a.scn"});
-    EXPECT_EQ(result.code, 0);
-    EXPECT_EQ(result.out, "");
-    EXPECT_EQ(result.err,
-              "a.nff:6:1: warning: hither = 1: ray casting also shows what is nearer than that\n");
-    EXPECT_EQ(scc({"import", "nff", "a.nff", "-o", "-"}).out, read("a.scn"));
-    EXPECT_TRUE(scc({"check", "--strict", "a.scn"}).ok());
-    const auto render = scc({"render", "a.scn", "-o", "a.png", "--stats", "-"});
-    ASSERT_TRUE(render.ok()) << render.err;
-    EXPECT_EQ(nlohmann::json::parse(render.out)["rays"]["primary"], 32 * 24);
-}
-
-TEST_F(CommandLine, RefusesToImportWhatIsWrong) {
-    write("a.nff", small_nff + "s 0 0 0 -1\n");
-    const auto wrong = scc({"import", "nff", "a.nff", "-o", "a.scn"});
-    EXPECT_EQ(wrong.code, 1);
-    EXPECT_EQ(wrong.err.find("a.nff:13:9: error: the radius is -1; "), 0U) << wrong.err;
-    EXPECT_EQ(scc({"import", "nff", "none.nff", "-o", "a.scn"}).code, 3);
-    EXPECT_EQ(files(), (Lines{"a.nff"}));
-    write("a.nff", small_nff);
-    EXPECT_EQ(scc({"import", "nff", "a.nff", "-o", "no/such/folder/a.scn"}).code, 3);
-    EXPECT_EQ(scc({"import", "nff", "a.nff", "-o", "/dev/full"}).code, 3);
-}
-
-TEST_F(CommandLine, WarnsOfManyThingsWithoutFillingTheScreen) {
-    std::string text = small_nff;
-    for (int i = 0; i < 100; ++i) {
-        text += "p 3\n0 0 0\n1 1 1\n2 2 2\n";
-    }
-    write("a.nff", text);
-    const auto result = scc({"import", "nff", "a.nff", "-o", "a.scn"});
-    EXPECT_EQ(result.code, 0);
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 21);
-    EXPECT_NE(result.err.find("and 81 more; comments in the scene say which\n"), std::string::npos);
 }
 
 TEST_F(CommandLine, MeshesFromTheCacheGiveTheSamePicture) {

@@ -32,9 +32,9 @@ INSTANTIATE_TEST_SUITE_P(
     All, Examples,
     testing::Values(
         Example{"lecture", "pov,blender,native"}, Example{"mesh", "pov,blender"},
-        Example{"transforms", "pov,blender"}, Example{"lights", "pov,blender"},
-        Example{"mirrors", "pov,blender"}, Example{"stage", "pov,blender"}, Example{"rings", "pov"},
-        Example{"quadrics", "pov", false}, Example{"landscape", "pov,blender"},
+        Example{"lighthouse", "pov", false}, Example{"transforms", "pov,blender"},
+        Example{"lights", "pov,blender"}, Example{"mirrors", "pov,blender"}, Example{"stage", "pov,blender"},
+        Example{"rings", "pov"}, Example{"quadrics", "pov", false}, Example{"landscape", "pov,blender"},
         Example{"textures", "pov,blender"}, Example{"bump", "pov", false}, Example{"csg", "pov,blender"},
         Example{"cutaway", "pov", false}, Example{"glass", "pov", false}, Example{"shapes", "pov", false},
         Example{"implicit", "pov,blender"}, Example{"lattice", "pov,blender"}, Example{"spectra", "pov"},

@@ -327,7 +327,7 @@ TEST_F(Lsp, CompletesFieldsThatAreNotSet) {
     EXPECT_TRUE(has(labels("sphere { if (true) { | } }\n"), "center"));
     EXPECT_TRUE(has(labels("sphere { |"), "center")); // never closed
     EXPECT_TRUE(has(labels("phong { | }\n"), "bump"));
-    EXPECT_FALSE(has(labels("point_light { | }\n"), "power")); // not supported yet
+    EXPECT_TRUE(has(labels("point_light { | }\n"), "power"));
 }
 
 TEST_F(Lsp, CompletesChoices) {
