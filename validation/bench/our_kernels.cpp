@@ -41,8 +41,15 @@ void for_each_square(std::size_t first, F&& f) {
         }
     }
 }
-constexpr std::uint32_t mesh_kind = primitive_kinds - 2;
-static_assert(is_mesh<ShapeOfKind<float, mesh_kind>>);
+/// Of bare meshes.
+constexpr std::uint32_t mesh_kind = [] {
+    std::uint32_t found = primitive_kinds;
+    [&]<std::uint32_t... shape>(std::integer_sequence<std::uint32_t, shape...>) {
+        ((found = is_mesh<ShapeOfKind<float, 2 * shape>> ? 2 * shape : found), ...);
+    }
+    (std::make_integer_sequence<std::uint32_t, primitive_kinds / 2>{});
+    return found;
+}();
 
 /// A scene of one mesh and nothing else, as `scc build` would write it.
 struct MeshScene : SceneBase<float> {
