@@ -26,6 +26,20 @@ std::optional<std::string> first_line(const std::string& program) {
     return result.ok() && !lines.empty() ? lines.front() : std::string();
 }
 
+/// Of the numpy that Blender's Python finds, which Debian's package of Blender does not ask for.
+std::optional<std::string> numpy_of_blender() {
+    Command command;
+    command.program = "blender";
+    command.arguments = {"-b", "--factory-startup", "--python-exit-code",
+                         "1",  "--python-expr",     "import numpy; print('numpy', numpy.__version__)"};
+    command.timeout_seconds = version_timeout_seconds;
+    const ProcessResult result = run(command);
+    for (const std::string& line : lines_of(result.ok() ? result.out : ""))
+        if (line.starts_with("numpy "))
+            return line;
+    return std::nullopt;
+}
+
 struct Row {
     const char* name;
     const char* purpose;
@@ -42,6 +56,8 @@ constexpr std::array rows{
     Row{"povray", "draws exported scenes (scc validate --against pov)", "apt install povray", povray_version},
     Row{"blender", "draws exported scenes (scc validate --against blender)", "apt install blender",
         blender_version},
+    Row{"numpy", "makes the arrays of scenes exported to Blender", "apt install python3-numpy",
+        numpy_of_blender},
     Row{"scc-opengl", "draws raster pictures by OpenGL (scc validate --against opengl)",
         "apt install libosmesa6-dev, then build scc again",
         [] {

@@ -158,7 +158,8 @@ nlohmann::ordered_json to_json(const SweepScene& scene) {
             {"confirmation", scene.confirmation},
             {"confirmed", scene.confirmed},
             {"series", series},
-            {"ratios", ratios}};
+            {"ratios", ratios},
+            {"tessellation", series_json(scene.tessellation)}};
 }
 
 } // namespace scc::validation

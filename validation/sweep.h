@@ -34,6 +34,9 @@ struct SweepScene {
     std::string confirmation; ///< by which other renderer, and how near it came; or why by none
     bool confirmed = false;
     std::vector<SweepSeries> series{};
+    /// Raster pictures over the reciprocal of `tessellation`, against rays without shadows and mirrors
+    /// through the same samples; `failure` says why there are none.
+    SweepSeries tessellation{};
 };
 
 /// error = factor * x^order, a straight line through the logarithms by least squares.

@@ -29,9 +29,9 @@ using Select = std::function<double(const SweepPoint&)>;
 /// Error over something, both by logarithms: one curve per series.
 class Plot {
 public:
-    Plot(const SweepScene& scene, std::string title, Select x)
-        : scene_(scene), title_(std::move(title)), x_(std::move(x)) {
-        for (const SweepSeries& series : scene.series)
+    Plot(std::vector<SweepSeries> all, std::string title, Select x)
+        : all_(std::move(all)), title_(std::move(title)), x_(std::move(x)) {
+        for (const SweepSeries& series : all_)
             for (const SweepPoint& point : series.points)
                 if (is_shown(point)) {
                     xs_.take(x_(point));
@@ -43,8 +43,8 @@ public:
         if (!(xs_.high >= xs_.low))
             return "";
         std::string body = grid();
-        for (std::size_t i = 0; i < scene_.series.size(); ++i)
-            body += curve(scene_.series[i], i);
+        for (std::size_t i = 0; i < all_.size(); ++i)
+            body += curve(all_[i], i);
         return fmt::format("<svg class=\"plot\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n{}"
                            "<text class=\"axis\" x=\"{}\" y=\"{}\">{}</text>\n</svg>\n",
                            width, height, escape_html(title_), body, left, top - 10, escape_html(title_));
@@ -99,7 +99,7 @@ private:
                            legend_y + 9, escape_html(series.renderer));
     }
 
-    const SweepScene& scene_;
+    std::vector<SweepSeries> all_;
     std::string title_;
     Select x_;
     Range xs_, ys_;
@@ -109,11 +109,17 @@ std::string time_cell(const std::optional<double>& seconds) {
     return fmt::format("<td class=\"n\">{}</td>", seconds ? fmt::format("{:.3f}", *seconds) : "");
 }
 
+std::vector<SweepSeries> all_series(const SweepScene& scene) {
+    std::vector<SweepSeries> all = scene.series;
+    all.push_back(scene.tessellation);
+    return all;
+}
+
 std::string points_table(const SweepScene& scene) {
     std::string rows =
         "<tr><th>renderer</th><th>setting</th><th>RMSE</th><th>largest error</th><th>start-up, s</th>"
         "<th>parse, s</th><th>build, s</th><th>draw, s</th><th>write, s</th><th>whole process, s</th></tr>\n";
-    for (const SweepSeries& series : scene.series) {
+    for (const SweepSeries& series : all_series(scene)) {
         for (const SweepPoint& point : series.points)
             rows +=
                 fmt::format("<tr><td>{}</td><td>{}</td><td class=\"n\">{:.3g}</td><td class=\"n\">{:.3g}</td>"
@@ -131,7 +137,7 @@ std::string points_table(const SweepScene& scene) {
 
 std::string orders_table(const SweepScene& scene) {
     std::string rows = "<tr><th>renderer</th><th>knob</th><th>convergence order</th><th>points</th></tr>\n";
-    for (const SweepSeries& series : scene.series)
+    for (const SweepSeries& series : all_series(scene))
         if (const std::optional<PowerLaw> fit = error_by_quality(series))
             rows += fmt::format(
                 "<tr><td>{}</td><td>{}</td><td class=\"n\">{:.2f}</td><td class=\"n\">{}</td></tr>\n",
@@ -173,13 +179,18 @@ std::string to_html(const SweepScene& scene) {
                                    escape_html(scene.reference_made_by),
                                    scene.confirmed ? "passed" : "skipped", escape_html(scene.confirmation));
     html += "<div class=\"plots\">\n";
-    html += Plot(scene, "RMSE over seconds of the whole process", [](const SweepPoint& p) {
+    html += Plot(scene.series, "RMSE over seconds of the whole process", [](const SweepPoint& p) {
                 return p.times.total.value_or(0);
             }).svg();
-    html += Plot(scene, "RMSE over seconds of drawing", [](const SweepPoint& p) {
+    html += Plot(scene.series, "RMSE over seconds of drawing", [](const SweepPoint& p) {
                 return p.times.trace.value_or(0);
             }).svg();
-    html += Plot(scene, "RMSE over samples per pixel", [](const SweepPoint& p) { return p.quality; }).svg();
+    html += Plot(scene.series, "RMSE over samples per pixel", [](const SweepPoint& p) {
+                return p.quality;
+            }).svg();
+    html += Plot({scene.tessellation}, "RMSE of raster against rays, away from edges, over 1 / tessellation",
+                 [](const SweepPoint& p) { return p.quality; })
+                .svg();
     html += "</div>\n";
     return html + ratios_table(scene) + orders_table(scene) + "<details><summary>all settings</summary>\n" +
            points_table(scene) + "</details>\n";

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -30,6 +31,8 @@ using validation::SweepSeries;
 
 constexpr std::array<int, 6> axes{1, 2, 4, 8, 16, 32}; ///< samples per axis of a sweep
 constexpr int reference_axis = 64;
+constexpr int tessellation_axis = 4; ///< by so much larger are the pictures in which edges are left out
+constexpr std::array<double, 6> tessellations{0.002, 0.001, 0.0005, 0.00025, 0.000125, 0.0000625};
 constexpr int default_samples = 256;
 constexpr std::pair<int, int> default_size{96, 72};
 /// Where lights and highlights are brighter in single samples than in their mean, POV-Ray's file must not cut
@@ -88,6 +91,7 @@ public:
         for (const std::string& renderer : against) {
             add_series(renderer, result.series);
         }
+        result.tessellation = over_tessellations();
         return result;
     }
 
@@ -140,6 +144,68 @@ private:
         }
         series.points.push_back(measured(std::move(setting), quality, drawn));
         return true;
+    }
+
+    /// Shading per pixel, so that nothing but the triangles makes the difference; away from edges, where a
+    /// sample more or less on a triangle is worth more than all that.
+    SweepSeries over_tessellations() const {
+        SweepSeries series{.renderer = "scc raster", .knob = "1 / tessellation"};
+        if (const std::string reason = why_not_raster(subject_.loaded.scene); !reason.empty()) {
+            series.failure = reason;
+            return series;
+        }
+        ir::Scene scene = subject_.loaded.scene;
+        runtime::RenderRequest request = subject_.request;
+        request.settings.samples = 1;
+        request.settings.width *= tessellation_axis;
+        request.settings.height *= tessellation_axis;
+        request.crop = {0, 0, request.settings.width, request.settings.height};
+        request.settings.shadows = false;
+        request.settings.depth = 0;
+        const auto draw = [&] {
+            scene.settings = request.settings;
+            Drawn drawn{Image(request.settings.width, request.settings.height), {}, ""};
+            const auto start = std::chrono::steady_clock::now();
+            const host::Drawable drawable = compiler::make_drawable(scene, compiler::Precision::full);
+            const auto made = std::chrono::steady_clock::now();
+            drawable.render(request, drawn.image);
+            const auto end = std::chrono::steady_clock::now();
+            drawn.times.bounding = std::chrono::duration<double>(made - start).count();
+            drawn.times.trace = std::chrono::duration<double>(end - made).count();
+            return drawn;
+        };
+        const Image rays = draw().image;
+        request.settings.method = runtime::Method::raster;
+        request.settings.raster.shading = runtime::RasterShading::phong;
+        request.settings.raster.clip = false; // rays have no far plane
+        for (const double tessellation : tessellations) {
+            request.settings.raster.tessellation = tessellation;
+            const Drawn drawn = draw();
+            const validation::Metrics metrics = validation::compare(rays, drawn.image);
+            series.points.push_back({fmt::format("{}", tessellation), 1 / tessellation,
+                                     metrics.away_from_edges.rmse, metrics.away_from_edges.max_error,
+                                     drawn.times});
+        }
+        return series;
+    }
+
+    /// What raster mode draws otherwise than rays do, besides triangles; empty: nothing but shadows and
+    /// mirrors.
+    static std::string why_not_raster(const ir::Scene& scene) {
+        const auto differs = [&](auto&& has) {
+            return std::any_of(scene.materials.begin(), scene.materials.end(),
+                               [&](const ir::Material& material) { return has(material.phong); });
+        };
+        if (scene.camera.projection == runtime::Projection::spherical || scene.camera.lens_radius > 0) {
+            return "no raster picture: its camera does not project onto a plane";
+        }
+        if (differs([](const auto& phong) { return runtime::lets_through(phong); })) {
+            return "no raster picture: transparent surfaces are blended there, and bend no rays";
+        }
+        if (differs([](const auto& phong) { return phong.bump != runtime::no_function; })) {
+            return "no raster picture: there are no bumps in it";
+        }
+        return !scene.bands.empty() ? "no raster picture: it has spectra, which take as many pictures" : "";
     }
 
     SweepSeries over_samples(std::string name, const std::function<Drawn(int)>& draw) const {

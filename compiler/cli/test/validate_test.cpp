@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <map>
+
 /// `scc validate` on copies of an export that were broken on purpose: each is caught, and told by its kind.
 namespace scc::cli::test {
 namespace {
@@ -107,6 +109,50 @@ TEST_F(CommandLine, ValidateTakesLimitsFromTheSceneAndKeepsWhatOthersDrew) {
     EXPECT_EQ(wrong.code, 1);
     EXPECT_NE(wrong.err.find("s.scn:1: error: a budget of the scene's own needs a reason"), std::string::npos)
         << wrong.err;
+}
+
+/// Error falls as samples and triangles become more, ours as POV-Ray's with the same samples.
+TEST_F(CommandLine, ValidateSweepsErrorOverTime) {
+    if (!validation::find_program("povray")) {
+        GTEST_SKIP() << "povray is not installed";
+    }
+    // POV-Ray sees no farther than 1e7 of its units, which shows in a row of samples at the horizon.
+    write("s.scn", std::string(scene) +
+                       "let down = perspective_camera { eye = (0, 4, 6), target = (0, 0, 0) }\n"
+                       "render { camera = \"down\" }\ndown\n");
+    write("m.obj", mesh);
+    const auto result = scc({"validate", "--sweep", "s.scn", "--against", "pov,native", "--report", "out",
+                             "--size", "24x18", "--samples", "16", "--cache", "off"});
+    EXPECT_EQ(result.code, 0) << result.out << result.err;
+    const auto json = nlohmann::json::parse(read("out/report.json"))["sweeps"][0];
+    EXPECT_TRUE(json["confirmed"]) << json["confirmation"];
+    std::map<std::string, nlohmann::json> series;
+    for (const auto& one : json["series"]) {
+        EXPECT_FALSE(one.contains("failure")) << one;
+        series[one["renderer"]] = one;
+    }
+    for (const char* const name : {"scc float", "scc double", "scc native double", "pov"}) {
+        ASSERT_EQ(series.at(name)["points"].size(), 3U) << name; // 1, 4 and 16 samples
+        EXPECT_LT(series.at(name)["order"], -0.4) << name;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto error = [&](const char* name) {
+            return series.at(name)["points"][i]["rmse"].get<double>();
+        };
+        EXPECT_EQ(error("scc double"), error("scc native double"));
+        EXPECT_NEAR(error("pov"), error("scc double"), 2e-5);
+    }
+    EXPECT_EQ(series.count("pov +AM2"), 1U);
+    const auto& tessellation = json["tessellation"];
+    EXPECT_EQ(tessellation["points"].size(), 6U);
+    EXPECT_LT(tessellation["order"], -0.7) << tessellation;
+    EXPECT_NE(read("out/index.html").find("over 1 / tessellation"), std::string::npos);
+
+    write("glass.scn", "sphere { material = glass { } }\nperspective_camera { eye = (0, 0, 5) }\n");
+    const auto glass = scc({"validate", "--sweep", "glass.scn", "--against", "native", "--report", "out",
+                            "--size", "16x12", "--samples", "4", "--cache", "off"});
+    const auto of_glass = nlohmann::json::parse(read("out/report.json"))["sweeps"][0]["tessellation"];
+    EXPECT_NE(of_glass["failure"].get<std::string>().find("transparent"), std::string::npos) << glass.err;
 }
 
 TEST_F(CommandLine, ValidateGoesOnAfterAWrongScene) {
