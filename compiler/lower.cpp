@@ -1,6 +1,7 @@
 #include "compiler/lower.h"
 
 #include "compiler/bounds.h"
+#include "compiler/condition.h"
 #include "compiler/field_bounds.h"
 #include "compiler/function_builder.h"
 #include "compiler/ir/objects.h"
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <set>
@@ -320,14 +322,9 @@ std::optional<ir::Shape> ObjectLowering::implicit_shape(const Thing& thing) {
 // ---- objects
 // -----------------------------------------------------------------------------------------------
 
-// The determinant relative to what the columns' lengths allow; 0 for a transform that flattens.
+/// Flattens what it is applied to, as far as numbers can tell.
 bool is_singular(const Affine<double>& a) {
-    const auto column = [&](int i) { return Vec3<double>{a.m[0][i], a.m[1][i], a.m[2][i]}; };
-    const Vec3<double> x = column(0);
-    const Vec3<double> y = column(1);
-    const Vec3<double> z = column(2);
-    const double volume = std::abs(dot(x, cross(y, z)));
-    return !(volume > 1e-14 * length(x) * length(y) * length(z)) || !std::isfinite(volume);
+    return !(condition(a) < 1 / std::numeric_limits<double>::epsilon());
 }
 
 Numbering number_siblings(const std::vector<lang::ThingPtr>& siblings, const std::string& parent_path) {

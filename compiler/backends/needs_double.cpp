@@ -1,6 +1,7 @@
 #include "compiler/backends/needs_double.h"
 
 #include "compiler/bounds.h"
+#include "compiler/condition.h"
 #include "compiler/ir/objects.h"
 
 #include <fmt/core.h>
@@ -17,7 +18,7 @@ namespace {
 // Float has 24 bits. The limits leave, measured on spheres, an error of a hundredth of an 8-bit step.
 constexpr double most_sizes_away = 4000;
 constexpr double most_stretched = 300;
-constexpr double most_shininess = 2000;
+constexpr double most_shininess = 500;
 /// Mirrors one after the other: each adds its roundings, and a curved one multiplies those before it.
 constexpr int most_mirrors = 64;
 /// Far to near plane, which z-buffers divide their digits among.
@@ -34,18 +35,6 @@ double size_of(const runtime::Bounds<double>& box) {
     std::array<double, 3> extents{box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z};
     std::sort(extents.begin(), extents.end());
     return extents[1];
-}
-
-/// At least the ratio of the largest to the smallest scale of the map.
-double stretch_of(const runtime::Affine<double>& map) {
-    const auto norm = [](const runtime::Affine<double>& a) {
-        double sum = 0;
-        for (const auto& row : a.m) {
-            sum += row[0] * row[0] + row[1] * row[1] + row[2] * row[2];
-        }
-        return std::sqrt(sum / 3);
-    };
-    return norm(map) * norm(inverse(map));
 }
 
 /// `path` is a function: few paths are asked for.
@@ -73,7 +62,7 @@ std::optional<std::string> too_much(const std::optional<runtime::Bounds<double>>
 }
 
 std::optional<std::string> too_much(const ir::ObjectColumn& column, const ir::Scene& scene, double eye) {
-    const double stretch = stretch_of(column.world_from_object);
+    const double stretch = condition(column.world_from_object);
     return std::visit(
         [&](const auto& shapes) {
             std::optional<std::string> reason;
@@ -125,7 +114,7 @@ std::optional<std::string> needs_double(const ir::Scene& scene) {
         [&](const ir::Object& object) {
             if (!reason) {
                 reason = too_much(object_bounds(object.shape, scene), object.world_from_object,
-                                  stretch_of(object.world_from_object), eye, [&] { return object.path; });
+                                  condition(object.world_from_object), eye, [&] { return object.path; });
             }
         },
         [&](const ir::ObjectArray& array) {
@@ -136,7 +125,7 @@ std::optional<std::string> needs_double(const ir::Scene& scene) {
     for (std::size_t i = 0; !reason && i < scene.members.size(); ++i) {
         const ir::Object& member = scene.members[i];
         reason = too_much(object_bounds(member.shape, scene), member.world_from_object,
-                          stretch_of(member.world_from_object), eye, [&] { return member.path; });
+                          condition(member.world_from_object), eye, [&] { return member.path; });
     }
     if (reason) {
         return reason;

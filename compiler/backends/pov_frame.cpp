@@ -72,7 +72,7 @@ constexpr double comfortable_size = 8;
 
 /// Neighbouring triangles of a mesh shadow each other over short distances, and POV-Ray sees no occluder
 /// nearer than 1e-3: such scenes are written larger, at the price of the horizon.
-constexpr double comfortable_mesh_size = 512;
+constexpr double comfortable_mesh_size = 4096;
 
 } // namespace
 
@@ -90,7 +90,7 @@ std::string PovFrame::texture_transform() const {
 namespace {
 
 /// Surfaces that shadow and mirror themselves, or neighbours that do so to each other, at distances far below
-/// their size.
+/// their size; and bodies that let light through, which rays cross at their corners over as short a way.
 bool has_folds(const ir::Scene& scene) {
     const auto count = [&]<class Shape>(const Shape&) {
         return std::count_if(scene.objects.begin(), scene.objects.end(), [](const ir::Object& object) {
@@ -98,7 +98,9 @@ bool has_folds(const ir::Scene& scene) {
         });
     };
     return !scene.meshes.empty() || count(runtime::Implicit<double>{}) > 0 ||
-           count(runtime::Triangle<double>{}) > 1;
+           count(runtime::Triangle<double>{}) > 1 ||
+           std::any_of(scene.materials.begin(), scene.materials.end(),
+                       [](const ir::Material& material) { return lets_through(material.phong); });
 }
 
 } // namespace

@@ -26,9 +26,7 @@ constexpr Family table[] = {
     {"gap", "gap", "gap between two faces", -1, -15, formula, everyone, -15, none},
     {"film", "film", "thickness of what a cut leaves of a box", -1, -15, formula, "pov", -13,
      "the ends of the two boxes are told apart along the ray, whose rounding is 1e-15 times its length"},
-    {"stretch", "stretch", "condition of a transform, along the view", 0, 14, neutral, everyone, 7,
-     "beyond, the front end takes the transform for a singular one, since it is rotated before it is "
-     "stretched"},
+    {"stretch", "stretch", "condition of a transform, along the view", 0, 14, neutral, everyone, 14, none},
     {"squash", "stretch", "condition of a transform, the other way", 0, -14, neutral, everyone, -14, none},
     {"sliver", "sliver", "height of a sliver of 4", -1, -15, formula, everyone, -13,
      "below, the front end takes the points for a line"},

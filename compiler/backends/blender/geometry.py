@@ -271,7 +271,7 @@ def solid_mesh(o):
 
 #: end
 #: plane
-PLANE_SEGMENTS, PLANE_RINGS = 12, 20  # the last ring is a million times as large as the first
+PLANE_SEGMENTS, PLANE_RINGS = 5, 10  # the last ring is a million times as large as the first
 
 
 def world_plane(o):
@@ -283,14 +283,14 @@ def world_plane(o):
 
 
 def plane_mesh(o):
-    """Rings around the scene, each twice as large as the one inside it, so that near triangles are small and the
+    """Rings around the scene, each four times as large as the one inside it, so that near triangles are small and the
     far ones reach the horizon. Stands in the world."""
     normal, offset = world_plane(o)
     first, second = frame(normal)
     center = np.array(CENTER) + (offset - normal @ CENTER) * normal
-    angle = 0.3 + 2 * np.pi * np.arange(PLANE_SEGMENTS) / PLANE_SEGMENTS
+    angle = 0.7 + 2 * np.pi * np.arange(PLANE_SEGMENTS) / PLANE_SEGMENTS
     spoke = np.outer(np.cos(angle), first) + np.outer(np.sin(angle), second)
-    points = np.concatenate([center[None]] + [center + EXTENT * 2.0 ** k * spoke for k in range(PLANE_RINGS + 1)])
+    points = np.concatenate([center[None]] + [center + EXTENT * 4.0 ** k * spoke for k in range(PLANE_RINGS + 1)])
     here = np.arange(PLANE_SEGMENTS)
     after, faces = np.roll(here, -1), []
     for k in range(PLANE_RINGS):
