@@ -36,9 +36,9 @@ const std::map<Diag, Case>& cases() {
         {Diag::unbounded_field,
          {"fn f(p: vec3) -> number = p.y + 1 / (p.x - 0.3)\nimplicit { field = f, within = sphere { } }\n"}},
         {Diag::singular_transform,
-         {"group {\n  name = \"table\"\n  transform = scale(5e-9, 1, 1)\n  group {\n    transform = "
-          "scale(5e-9, 1, 1)\n"
-          "    sphere { transform = rotate_z(45deg) }\n  }\n}\n"}},
+         {"group {\n  name = \"table\"\n  transform = scale(2e-8, 1, 1)\n  group {\n    transform = "
+          "scale(2e-8, 1, 1)\n"
+          "    sphere { transform = scale(0.1, 1, 1) }\n  }\n}\n"}},
         {Diag::open_solid,
          {"difference {\n  box { }\n  cylinder { radius = 0.5, caps = false }\n  disc { }\n"
           "  heightfield { field = fn(uv: vec2) = uv.x, cells = (2, 2) }\n"
