@@ -71,7 +71,7 @@ constexpr Family table[] = {
      neutral, everyone, -16, none},
     {"outside", "outside", "distance of the eye from a ball that it looks along", -8, -16, formula, everyone,
      -15, "the eye's distance from the ball's centre is 1 and a little"},
-    {"instances", "instances", "number of balls", 0, 7, formula, "pov", 7, none},
+    {"instances", "instances", "number of balls", 0, 7, formula, none, 7, none},
     {"nested", "nested", "bodies of glass in each other", 0, 2, neutral, "pov", 2, none},
 };
 

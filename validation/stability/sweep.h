@@ -36,7 +36,7 @@ struct Step {
     std::vector<Reading> readings; ///< one per engine of the sweep
     std::string chosen;            ///< by `--precision auto`: float or double
     std::string why;
-    bool warned = false; ///< the scene's author is told that double may not be enough
+    bool warned = false; ///< `beyond-double` tells the scene's author that double may not be enough
 };
 
 /// Engines that every sweep has, before others.
@@ -62,7 +62,7 @@ std::vector<int> wrong_picks(const Sweep& sweep);
 std::vector<int> cautious_picks(const Sweep& sweep);
 /// Those at which double failed, too.
 std::vector<int> beyond_double(const Sweep& sweep);
-/// Those of them that are drawn and that no warning tells of.
+/// Those of them that are drawn and that `beyond-double` does not warn of.
 std::vector<int> unwarned(const Sweep& sweep);
 
 struct StabilityReport {
