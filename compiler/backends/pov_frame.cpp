@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace scc::compiler {
 
@@ -42,21 +43,32 @@ double plane_distance(const runtime::Plane<double>& plane, const Affine<double>&
            length(transform_normal(object_from_world, n));
 }
 
-/// The stretch that matters: around the eye, all bounded objects and the origins of other unbounded ones,
-/// else down to the farthest plane.
+/// So many times as large as all that is smaller, and the eye: one stands on it as on a plane.
+constexpr double giant = 1e4;
+
+/// The stretch that matters: around the eye, all bounded objects but giants and the origins of other
+/// unbounded ones, else down to the farthest plane.
 double extent_of(const ir::Scene& scene, Bounds<double>& around) {
     double planes = 0;
+    std::map<int, Bounds<double>> by_size; // of objects, by the power of two
     around.add(scene.camera.eye);
     ir::for_each_shape(
         scene, [&]<class Shape>(const Shape& shape, const Affine<double>& place, const runtime::Sides&) {
             if constexpr (std::is_same_v<Shape, runtime::Plane<double>>) {
                 planes = std::max(planes, plane_distance(shape, place, scene.camera.eye));
             } else if (const auto bounds = object_bounds(shape, scene)) {
-                around.add(transform_bounds(place, *bounds));
+                const Bounds<double> box = transform_bounds(place, *bounds);
+                by_size[std::ilogb(size_of(box))].add(box);
             } else {
                 around.add(translation_of(place));
             }
         });
+    for (const auto& [power, boxes] : by_size) {
+        if (size_of(around) > 0 && std::exp2(power) > giant * size_of(around)) {
+            break;
+        }
+        around.add(boxes);
+    }
     const double bounded = size_of(around);
     return bounded > 0 ? bounded : planes;
 }

@@ -407,7 +407,7 @@ void add_stability(CLI::App& app, Run& selected) {
                      "seconds that one renderer may take for a picture")
         ->capture_default_str();
     command->footer(
-        "\nA step is kept if no pixel away from edges is off by more than 1e-4, and at most 0.5 % "
+        "\nA step is kept if no pixel away from edges is off by more than 1e-4, and at most 1 % "
         "of all are. Exits with 1 if `auto` keeps less than a family's recorded threshold.");
     command->callback([&selected, options] { selected = [options] { return stability(*options); }; });
 }

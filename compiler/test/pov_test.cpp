@@ -77,6 +77,13 @@ TEST(Pov, SettingsFollowTheScene) {
     EXPECT_TRUE(has(text, "no_shadow"));
 }
 
+TEST(Pov, GiantsDoNotMakeTheRestSmall) {
+    EXPECT_TRUE(has(exported("sphere { }\nsphere { center = (0, -1e6, 0), radius = 1e6 }").text,
+                    "<0.0, -1000000.0, 0.0>, 1000000.0"));
+    EXPECT_FALSE(has(exported("sphere { }\nsphere { center = (0, -1e4, 0), radius = 1e4 }").text,
+                     "<0.0, -10000.0, 0.0>, 10000.0"));
+}
+
 TEST(Pov, MoreLevelsThanItHasAreApproximated) {
     const auto mirror = [](const char* depth) {
         return exported("sphere { material = phong { reflect = rgb(1, 1, 1) } }\n"

@@ -35,7 +35,7 @@ constexpr Family table[] = {
     {"implicit_steep", "implicit_gradient", "gradient of an implicit surface, up", 0, 12, neutral, "pov", 12,
      none},
     {"grazing", "grazing", "angle between view and surface", 0, -9, neutral, everyone, -9, none},
-    {"huge", "huge", "radius of a ball that casts shadows and mirrors", 6, 15, formula, everyone, 10,
+    {"huge", "huge", "radius of a ball that casts shadows and mirrors", 6, 15, formula, everyone, 11,
      rounding},
     {"near", "near", "near plane of a raster picture", -1, -15, formula, none, -13,
      "the depth buffer keeps the digits of double for 1 / depth"},
