@@ -406,9 +406,8 @@ void add_stability(CLI::App& app, Run& selected) {
         ->add_option("--timeout", options->timeout_seconds,
                      "seconds that one renderer may take for a picture")
         ->capture_default_str();
-    command->footer(
-        "\nA step is kept if no pixel away from edges is off by more than 1e-4, and at most 1 % "
-        "of all are. Exits with 1 if `auto` keeps less than a family's recorded threshold.");
+    command->footer("\nA step is kept if no pixel away from edges is off by more than 1e-4, and at most 1 % "
+                    "of all are. Exits with 1 if `auto` keeps less than a family's recorded threshold.");
     command->callback([&selected, options] { selected = [options] { return stability(*options); }; });
 }
 
