@@ -143,7 +143,7 @@ TEST_F(BlenderRender, SeesThroughSurfacesAsWeDo) {
                   3},
              Case{"ball", "sphere { center = (0, 0.9, 0), radius = 0.7, material = water }", 6},
              Case{"glass", "sphere { center = (0, 0.9, 0), radius = 0.7, material = glass { ior = 1.5 } }",
-                  30},
+                  55},
              Case{"bubble",
                   "sphere { center = (0, 0.9, 0), radius = 0.7, material = water }\n"
                   "sphere { center = (0.1, 1, 0.1), radius = 0.3, material = phong { diffuse = rgb(0, 0, 0), "
