@@ -174,7 +174,7 @@ bool ObjectLowering::set_field(Owner& shape, const runtime::Field<Owner, T>& fie
     if constexpr (requires { assign(member, given.value, number); }) {
         assign(member, given.value, number);
         if constexpr (std::is_same_v<T, runtime::Vec3<double>>) {
-            member = field.rule == runtime::Rule::direction ? normalize(member) : member;
+            member = field.rule == runtime::Rule::direction ? to_direction(member) : member;
         }
     } else {
         const auto& list = *std::get<lang::ListPtr>(given.value.v);
@@ -386,6 +386,11 @@ std::optional<Affine<double>> ObjectLowering::place_of_thing(const Thing& thing,
         return world_from_parent;
     }
     const Affine<double> place = compose(world_from_parent, to_affine(transform->value));
+    const Vec3<double> moved = translation_of(place);
+    if (!std::isfinite(moved.x) || !std::isfinite(moved.y) || !std::isfinite(moved.z)) {
+        diagnostics_.report(Diag::endless_transform, transform->value_span, path);
+        return std::nullopt;
+    }
     if (is_singular(place)) {
         diagnostics_.report(Diag::singular_transform, transform->value_span, path);
         return std::nullopt;

@@ -121,8 +121,8 @@ bool orient(runtime::Camera<double>& camera, Vec3<double> target, Vec3<double> u
     if (!(dot(back, back) > 0)) {
         return false;
     }
-    camera.n = normalize(back);
-    const Vec3<double> right = cross(normalize(up), camera.n);
+    camera.n = to_direction(back);
+    const Vec3<double> right = cross(to_direction(up), camera.n);
     if (!(dot(right, right) > 1e-24)) {
         return false;
     }
@@ -219,7 +219,7 @@ runtime::SpotLight<double> spot_light(const Thing& thing, lang::Diagnostics& dia
                                        "`inner` to `outer`, which is not less",
                                        inner * degrees, outer * degrees));
     }
-    light.axis = normalize(axis);
+    light.axis = to_direction(axis);
     light.cos_inner = std::cos(inner);
     light.cos_outer = std::cos(outer);
     light.exponent = to_number(*thing.get("exponent"));
@@ -251,7 +251,7 @@ runtime::DirectionalLight<double> directional_light(const Thing& thing, lang::Di
         return light;
     }
     light.to_light =
-        direction ? normalize(-to_vec3(*thing.get("direction"))) : normalize(to_vec3(*thing.get("towards")));
+        to_direction(direction ? -to_vec3(*thing.get("direction")) : to_vec3(*thing.get("towards")));
     return light;
 }
 

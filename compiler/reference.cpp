@@ -180,7 +180,8 @@ constexpr std::array types{
     Row{"range", "`0..5`: whole numbers, the end excluded"},
     Row{"surface", "the argument of a function of a point: `s.p` in the object's space, `s.world`, the "
                    "normal `s.n`, the "
-                   "coordinates on the surface `s.uv`"},
+                   "coordinates on the surface `s.uv`; where what the function gives is no number, as the "
+                   "logarithm of a negative one, it counts as 0"},
     Row{"shape", "what a shape's constructor makes"},
     Row{"material", "what a material's constructor makes"},
     Row{"light", "what a light's constructor makes"},

@@ -1,5 +1,6 @@
 #include "compiler/scene_checks.h"
 
+#include "compiler/beyond_double.h"
 #include "compiler/coincident_faces.h"
 #include "compiler/depth_checks.h"
 #include "compiler/ir/objects.h"
@@ -98,6 +99,13 @@ void check_distance(const ir::Scene& scene, lang::Diagnostics& diagnostics) {
     }
 }
 
+void check_double(const ir::Scene& scene, lang::Diagnostics& diagnostics) {
+    if (const auto found = beyond_double(scene)) {
+        diagnostics.report(Diag::beyond_double, found->span, found->path, fmt::format("{:.2g}", found->away),
+                           fmt::format("{:.2g}", found->steps));
+    }
+}
+
 /// Why a shape has no inside, of which it is a boundary. Empty if it has.
 std::string opening_of(const ir::Object& object, const ir::Scene& scene) {
     if (std::holds_alternative<runtime::Csg<double>>(object.shape)) {
@@ -162,6 +170,7 @@ void check_bodies(const ir::Scene& scene, lang::Diagnostics& diagnostics) {
 void check_scene(const lang::Module& module, const ir::Scene& scene, lang::Diagnostics& diagnostics) {
     check_depth(module, scene, diagnostics);
     check_distance(scene, diagnostics);
+    check_double(scene, diagnostics);
     check_raster(scene, diagnostics);
     check_coincident_faces(scene, diagnostics);
     check_bodies(scene, diagnostics);

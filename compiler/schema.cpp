@@ -665,7 +665,7 @@ Constructor ray() {
                                 .limits = {.min = 0,
                                            .max = runtime::most_bounces,
                                            .integer = true,
-                                           .rule = "a depth is a whole number from 0 to 200"},
+                                           .rule = "a depth is a whole number from 0 to 256"},
                                 .doc = "mirrors and refractions one after the other; 0: none"},
                                {.name = "shadows",
                                 .type = TypeKind::boolean,

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <unordered_map>
 #include <utility>
@@ -55,7 +56,9 @@ std::string_view rule(const runtime::Disc<double>& d) {
 std::string_view rule(const runtime::Triangle<double>& t) {
     const Vec3<double> a = t.points[1] - t.points[0];
     const Vec3<double> b = t.points[2] - t.points[0];
-    return length(cross(a, b)) > 1e-14 * length(a) * length(b) ? "" : "the three points lie on a line";
+    // Below, all of the product may be its roundings.
+    const double least = std::numeric_limits<double>::epsilon() * length(a) * length(b);
+    return length(cross(a, b)) > least ? "" : "the three points lie on a line";
 }
 
 std::string_view rule(const runtime::Torus<double>& t) {

@@ -27,6 +27,12 @@ inline runtime::Vec3<double> to_vec3(const lang::Value& value) {
     const auto& v = std::get<lang::Vec3Value>(value.v).v;
     return {v[0].value, v[1].value, v[2].value};
 }
+/// Of length 1; the vector may be so small or large that its square is no number.
+inline runtime::Vec3<double> to_direction(const runtime::Vec3<double>& v) {
+    const double squared = dot(v, v);
+    const bool is_ordinary = squared > 1e-280 && squared < 1e280;
+    return normalize(is_ordinary ? v : v * (1 / largest_component(absolute(v))));
+}
 inline runtime::Rgb<double> to_rgb(const lang::Value& value) {
     const auto& v = std::get<lang::ColorValue>(value.v).v;
     return {v[0].value, v[1].value, v[2].value};

@@ -142,6 +142,7 @@ Value spectral(const Spectrum& spectrum) {
 
 /// The points of a spectrum, or nothing after a report.
 std::vector<std::array<double, 2>> spectrum_points(BuiltinRun& run, const std::vector<Value>& list) {
+    constexpr double largest_value = 1e30; // sums with light still are numbers, in float too
     std::vector<std::array<double, 2>> points;
     const auto refuse = [&](const std::string& why) {
         run.report.report(Diag::bad_spectrum, run.span, why);
@@ -153,10 +154,10 @@ std::vector<std::array<double, 2>> spectrum_points(BuiltinRun& run, const std::v
     for (const Value& element : list) {
         const Components point = components(element);
         const double nm = point.v[0].value;
-        if (!(nm > 0) || !std::isfinite(nm) || !std::isfinite(point.v[1].value)) {
+        if (!(nm > 0) || !std::isfinite(nm) || !(std::abs(point.v[1].value) <= largest_value)) {
             return refuse(
                 fmt::format("this spectrum has the point {}; a wavelength is in nm and greater than "
-                            "0, and a value is finite",
+                            "0, and a value at most 1e30",
                             to_string(element)));
         }
         if (!points.empty() && nm <= points.back()[0]) {

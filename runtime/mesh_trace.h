@@ -585,7 +585,7 @@ Surface<L> mesh_surface(const MeshData& mesh, const Ray<L>& ray, const ShapeHit<
     const Corners<L> corners = detail::gather_corners<L>(
         hit.part, needed, [&](const TrianglePlace& place) { return corners_at<R>(mesh, place); });
     const Vec3<L> weights = barycentric(corners, ray);
-    Surface<L> result = triangle_surface(corners, weights);
+    Surface<L> result = triangle_surface(corners, weights, ray, hit.t);
     if constexpr (SmoothNormals) {
         if (mesh.normals != nullptr) {
             const Corners<L> normals =

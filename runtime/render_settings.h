@@ -86,7 +86,7 @@ struct RenderSettings {
 };
 
 inline constexpr int most_samples = 4096;
-inline constexpr int most_bounces = 200; ///< of RenderSettings::depth
+inline constexpr int most_bounces = 256; ///< of RenderSettings::depth
 
 /// n of n x n; the nearest one for what is no square number.
 inline int samples_per_axis(const RenderSettings& settings) {

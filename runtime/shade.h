@@ -257,7 +257,7 @@ private:
         if (bounce >= depth_ || none(pack.active)) {
             return false;
         }
-        pack.weight = pack.weight * pack.material.reflect;
+        pack.weight = bounded(pack.weight * pack.material.reflect);
         const Vec3<L> dir = mirror_direction(ray.dir, pack);
         ray = {start_off(pack.at.surface, dir), dir, spawned_t_min<L>(), infinity<L>()};
         counts_.reflected += count_lanes(pack.active);
@@ -301,7 +301,8 @@ private:
         through = through & !is_black(transmitted);
         Mask mirrored = pack.active & !is_black(reflected) & (pack.bounces < L(static_cast<R>(depth_)));
         const Mask both = through & mirrored;
-        const Rgb<L> mirrored_weight = pack.weight * reflected, through_weight = pack.weight * transmitted;
+        const Rgb<L> mirrored_weight = bounded(pack.weight * reflected),
+                     through_weight = bounded(pack.weight * transmitted);
         mirrored = mirrored & !(both & is_slight(mirrored_weight));
         through = through & !(both & is_slight(through_weight));
         counts_.reflected += count_lanes(mirrored);

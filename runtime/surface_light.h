@@ -4,6 +4,7 @@
 #include "runtime/illumination.h"
 
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -62,12 +63,30 @@ struct Reflectances {
     L fresnel; ///< 1 or 0
 };
 
+/// No larger than the numbers of L's type, so that it is black times black. What is no number stays so.
+template <class L>
+L bounded(const L& x) {
+    constexpr RealOf<L> most = std::numeric_limits<RealOf<L>>::max();
+    return choose(x > L(most), L(most), choose(x < L(-most), L(-most), x));
+}
+template <class L>
+Rgb<L> bounded(const Rgb<L>& c) {
+    return {bounded(c.r), bounded(c.g), bounded(c.b)};
+}
+
+/// What a function of the scene has given; where it has no value, as the logarithm of a negative number, 0.
+template <class L>
+L value_or_none(const L& x) {
+    return bounded(choose(x == x, x, L(0)));
+}
+
 template <class S, class L, class R>
 inline Rgb<L> value_at([[maybe_unused]] const S& scene, const Varying<Rgb<R>>& field,
                        [[maybe_unused]] const SurfacePoint<L>& point) {
     if constexpr (S::traits.functions) {
         if (field.function != no_function) {
-            return scene.color_function(field.function, point);
+            const Rgb<L> value = scene.color_function(field.function, point);
+            return {value_or_none(value.r), value_or_none(value.g), value_or_none(value.b)};
         }
     }
     return lanes<L>(field.value);
@@ -77,7 +96,7 @@ inline L value_at([[maybe_unused]] const S& scene, const Varying<R>& field,
                   [[maybe_unused]] const SurfacePoint<L>& point) {
     if constexpr (S::traits.functions) {
         if (field.function != no_function) {
-            return scene.number_function(field.function, point);
+            return value_or_none(scene.number_function(field.function, point));
         }
     }
     return L(field.value);

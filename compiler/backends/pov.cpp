@@ -87,7 +87,7 @@ private:
         file.line("global_settings {{");
         file.indent();
         file.line("assumed_gamma 1.0");
-        file.line("max_trace_level {}", settings.depth + (takes_bounces() ? 1 : 2));
+        file.line("max_trace_level {}", std::min(trace_level(), highest_trace_level));
         file.line("adc_bailout 0");
         file.line("ambient_light rgb scc_exposure*{}", pov_color(scene_.ambient));
         file.dedent();
@@ -99,11 +99,12 @@ private:
         note_settings();
     }
 
+    static constexpr int highest_trace_level = 256;
+    bool has_bounces() const { return scene_.traits.reflection || scene_.traits.refraction; }
+    int trace_level() const { return scene_.settings.depth + (takes_bounces() ? 1 : 2); }
     /// POV-Ray counts no level for a ray that goes straight on, but lets none go on at the last one. Where
     /// nothing else takes levels, one more does no harm.
-    bool takes_bounces() const {
-        return scene_.traits.reflection || scene_.traits.refraction || !scene_.traits.transmission;
-    }
+    bool takes_bounces() const { return has_bounces() || !scene_.traits.transmission; }
     bool passes_straight() const {
         return std::any_of(scene_.materials.begin(), scene_.materials.end(),
                            [](const ir::Material& m) { return lets_through(m.phong) && m.phong.ior == 1; });
@@ -117,6 +118,9 @@ private:
                  "black; "
                  "bound in radiance at such pixels",
                  1);
+        } else if (has_bounces() && trace_level() > highest_trace_level) {
+            note(Fidelity::approximated, "depth", "render", {},
+                 "max_trace_level, which is at most 256; bound in radiance where rays go on for longer", 1);
         } else {
             note(Fidelity::exact, "depth", "render", {}, "max_trace_level");
         }

@@ -1,4 +1,5 @@
 #include "compiler/backends/render.h"
+#include "compiler/beyond_double.h"
 #include "compiler/bounds.h"
 #include "compiler/cli/commands.h"
 #include "compiler/cli/comparison.h"
@@ -228,6 +229,7 @@ private:
         const compiler::PrecisionChoice choice = choose(*scene);
         result.chosen = name_of(choice.precision);
         result.why = choice.reason;
+        result.warned = compiler::beyond_double(*scene).has_value();
         result.readings = {single, full, choice.precision == compiler::Precision::single ? single : full};
         for (const std::string& name : plan.against) {
             result.readings.push_back(read_other(name, *scene, *expected));
@@ -404,8 +406,9 @@ void add_stability(CLI::App& app, Run& selected) {
         ->add_option("--timeout", options->timeout_seconds,
                      "seconds that one renderer may take for a picture")
         ->capture_default_str();
-    command->footer("\nA step is kept if no pixel away from edges is off by more than 1e-4, and at most 2 % "
-                    "of all are. Exits with 1 if `auto` keeps less than a family's recorded threshold.");
+    command->footer(
+        "\nA step is kept if no pixel away from edges is off by more than 1e-4, and at most 0.5 % "
+        "of all are. Exits with 1 if `auto` keeps less than a family's recorded threshold.");
     command->callback([&selected, options] { selected = [options] { return stability(*options); }; });
 }
 

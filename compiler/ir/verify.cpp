@@ -48,8 +48,9 @@ void verify_varying(std::int32_t index, std::size_t results, const Scene& scene,
 void verify_phong(const runtime::Phong<double>& p, const Material& material, const Scene& scene) {
     for (const auto* color : {&p.ambient, &p.diffuse, &p.specular, &p.emission, &p.reflect, &p.transmit}) {
         verify_varying(color->function, 3, scene, material.name);
-        require(std::isfinite(color->value.r + color->value.g + color->value.b), "a colour is not finite",
-                material.name);
+        require(std::isfinite(color->value.r) && std::isfinite(color->value.g) &&
+                    std::isfinite(color->value.b),
+                "a colour is not finite", material.name);
     }
     verify_varying(p.shininess.function, 1, scene, material.name);
     verify_varying(p.bump, 1, scene, material.name);

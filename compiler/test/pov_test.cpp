@@ -77,6 +77,19 @@ TEST(Pov, SettingsFollowTheScene) {
     EXPECT_TRUE(has(text, "no_shadow"));
 }
 
+TEST(Pov, MoreLevelsThanItHasAreApproximated) {
+    const auto mirror = [](const char* depth) {
+        return exported("sphere { material = phong { reflect = rgb(1, 1, 1) } }\n"
+                        "render { method = ray { depth = " +
+                        std::string(depth) + " } }");
+    };
+    const Exported all = mirror("255"), most = mirror("256");
+    EXPECT_TRUE(has(all.text, "max_trace_level 256"));
+    EXPECT_EQ(all.find("depth")->fidelity, Fidelity::exact);
+    EXPECT_TRUE(has(most.text, "max_trace_level 256"));
+    EXPECT_EQ(most.find("depth")->fidelity, Fidelity::approximated);
+}
+
 TEST(Pov, ShadowsAreOnByDefault) {
     EXPECT_FALSE(has(exported("sphere { }").text, "no_shadow"));
 }

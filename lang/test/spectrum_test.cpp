@@ -153,7 +153,7 @@ TEST(SpectralColour, WrongSpectraAreExplained) {
               "[bad-spectrum]");
     EXPECT_EQ(headline("print(spectrum([(-1, 1)]))"),
               "a.scn:1:7: error: this spectrum has the point (-1, 1); a wavelength is in nm and greater "
-              "than 0, and a value is finite [bad-spectrum]");
+              "than 0, and a value at most 1e30 [bad-spectrum]");
     EXPECT_EQ(headline("print(metal(\"golt\"))"),
               "a.scn:1:7: error: the metal is \"golt\"; the choices are \"aluminium\", \"chromium\", "
               "\"copper\", \"gold\", \"iron\" or \"silver\" [unknown-choice]");

@@ -52,10 +52,10 @@ struct Triangle {
     }
 
     template <class L>
-    constexpr Surface<L> surface(const Ray<L>& ray, const ShapeHit<L>&) const {
+    constexpr Surface<L> surface(const Ray<L>& ray, const ShapeHit<L>& hit) const {
         const Corners<L> corners{lanes<L>(points[0]), lanes<L>(points[1]), lanes<L>(points[2])};
         const Vec3<L> weights = barycentric(corners, ray);
-        Surface<L> result = triangle_surface(corners, weights);
+        Surface<L> result = triangle_surface(corners, weights, ray, hit.t);
         if (smooth) {
             const Corners<L> n{lanes<L>(normalize(normals[0])), lanes<L>(normalize(normals[1])),
                                lanes<L>(normalize(normals[2]))};

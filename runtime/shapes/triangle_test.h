@@ -154,7 +154,8 @@ constexpr L intersect_triangle(const Corners<L>& corners, const Ray<L>& ray) {
     return choose(inside, distance_to_plane(plane_normal(corners), relative.a, ray.dir), infinity<L>());
 }
 
-/// The weights of the corners where the ray passes through the triangle, 0..1 each.
+/// The weights of the corners where the ray passes through the triangle, 0..1 each. All the same where
+/// rounding leaves nothing of the triangle's volume, as of needles in float.
 template <class L>
 constexpr Vec3<L> barycentric(const Corners<L>& corners, const Ray<L>& ray) {
     const EdgeFunctions<L> edges(TriangleView<L>(relative_to(ray.org, corners)), ray.dir,
@@ -162,7 +163,10 @@ constexpr Vec3<L> barycentric(const Corners<L>& corners, const Ray<L>& ray) {
     const L inverse = 1 / (edges.e.x + edges.e.y + edges.e.z);
     const Vec3<L> zero{L(0), L(0), L(0)};
     const Vec3<L> inside = maximum(zero, edges.e * inverse); // rounding may put a ray on an edge beyond it
-    return inside * (1 / (inside.x + inside.y + inside.z));
+    const L sum = inside.x + inside.y + inside.z;
+    const MaskOf<L> known = (sum > L(0)) & (sum < infinity<L>());
+    const L third(RealOf<L>(1) / 3);
+    return choose(known, inside * (1 / sum), Vec3<L>{third, third, third});
 }
 
 /// The gradients of two quantities that are linear over the triangle, by the point; each corner has its x and
@@ -177,13 +181,25 @@ Vec2<Vec3<L>> corner_slopes(const Corners<L>& corners, const Corners<L>& values)
     return {by_b * value1.x + by_c * value2.x, by_b * value1.y + by_c * value2.y};
 }
 
+/// Of a triangle so many times as long as high, the weights say less about the point than the ray does: their
+/// roundings are multiplied by the length.
+inline constexpr int needle_aspect = 4096;
+
+/// `t`: where the ray meets it.
 template <class L>
-constexpr Surface<L> triangle_surface(const Corners<L>& corners, const Vec3<L>& weights) {
+constexpr Surface<L> triangle_surface(const Corners<L>& corners, const Vec3<L>& weights, const Ray<L>& ray,
+                                      const L& t) {
     const L u = roundoff<L>();
     const Vec3<L> edge1 = corners.b - corners.a, edge2 = corners.c - corners.a;
-    const Vec3<L> n = normalize(cross(edge1, edge2));
+    const Vec3<L> across = cross(edge1, edge2);
+    const Vec3<L> n = normalize(across);
     const Vec3<L> in_plane = edge1 * weights.y + edge2 * weights.z;
-    const Vec3<L> point = corners.a + (in_plane - n * dot(n, in_plane));
+    const Vec3<L> by_weights = corners.a + (in_plane - n * dot(n, in_plane));
+    const Vec3<L> on_ray = ray.org + ray.dir * t;
+    const Vec3<L> by_ray = on_ray - n * dot(n, on_ray - corners.a);
+    const L size = maximum(largest_component(absolute(edge1)), largest_component(absolute(edge2)));
+    const MaskOf<L> is_needle = size * size > L(needle_aspect) * largest_component(absolute(across));
+    const Vec3<L> point = choose(is_needle, by_ray, by_weights);
     // 2: the sum. Then the in-plane vector's error, a few roundings of the edges, and the plane's distance in
     // distance_to_plane: 4 roundings of the terms of n.(a - org), which is at most as long as the edges.
     const Vec3<L> reach = absolute(edge1) + absolute(edge2);

@@ -568,6 +568,24 @@ TEST(Mesh, NormalsPointOutOfTheCounterClockwiseSide) {
     }
 }
 
+/// Its roundings would move the point by 1e-16 times the length squared over the height.
+TEST(Triangle, NeedlesAreMetWhereTheRayIs) {
+    const Triangle<double> needle{{{{-1e9, 0, 0}, {1, 0, 0}, {1, 0.015625, 0}}}};
+    const Ray<double> ray{{0.25, 0.01, 4}, {0, 0, -1}};
+    const ShapeHit<double> hit = needle.intersect(ray);
+    ASSERT_EQ(hit.t, 4);
+    const Vec3<double> point = needle.surface(ray, hit).point;
+    EXPECT_EQ(point.x, 0.25);
+    EXPECT_EQ(point.y, 0.01);
+    EXPECT_EQ(point.z, 0);
+}
+
+TEST(Triangle, WeightsAreNumbersWhereRoundingLeavesNone) {
+    const Corners<float> corners{{-1e20F, 0, 0}, {1e20F, 0, 0}, {1e20F, 1e-20F, 0}};
+    const Vec3<float> weights = barycentric(corners, Ray<float>{{0, 0, 4}, {0, 0, -1}});
+    EXPECT_NEAR(weights.x + weights.y + weights.z, 1, 1e-6F);
+}
+
 TEST(Triangle, NormalPointsToTheCounterClockwiseSide) {
     Triangle<double> triangle{{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}};
     const Ray<double> ray{{0.2, 0.2, -1}, {0, 0, 1}};

@@ -60,7 +60,8 @@ Json to_json(const Sweep& sweep) {
     }
     json["auto"] = {{"wrong_picks", wrong_picks(sweep)},
                     {"cautious_picks", cautious_picks(sweep)},
-                    {"beyond_double", beyond_double(sweep)}};
+                    {"beyond_double", beyond_double(sweep)},
+                    {"unwarned", unwarned(sweep)}};
     json["steps"] = Json::array();
     for (const Step& step : sweep.steps) {
         Json one{{"power", step.power}, {"chosen", step.chosen}, {"why", step.why}};
@@ -131,6 +132,13 @@ std::vector<int> cautious_picks(const Sweep& sweep) {
 
 std::vector<int> beyond_double(const Sweep& sweep) {
     return powers_where(sweep, [](const Step& step) { return !step.readings[in_double].kept(); });
+}
+
+std::vector<int> unwarned(const Sweep& sweep) {
+    return powers_where(sweep, [](const Step& step) {
+        const Reading& full = step.readings[in_double];
+        return full.drawn && !full.kept() && !step.warned;
+    });
 }
 
 std::string to_text(const Sweep& sweep) {

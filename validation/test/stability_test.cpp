@@ -22,9 +22,9 @@ Sweep falling(const char* chosen_second) {
     sweep.holds_to = 1;
     const Reading good = reading(1e-7), bad = reading(0.5, 1);
     const bool single = std::string_view(chosen_second) == "float";
-    sweep.steps = {{0, {good, good, good}, "float", "why"},
-                   {1, {bad, good, single ? bad : good}, chosen_second, "why"},
-                   {2, {bad, bad, bad}, "double", "why"}};
+    sweep.steps = {{0, {good, good, good}, "float", "why", false},
+                   {1, {bad, good, single ? bad : good}, chosen_second, "why", false},
+                   {2, {bad, bad, bad}, "double", "why", false}};
     return sweep;
 }
 
@@ -63,6 +63,10 @@ TEST(Stability, AutoIsJudgedByItsRecordAndByItsPicks) {
     EXPECT_TRUE(is_worse_than_recorded(falling("float")));
     EXPECT_EQ(wrong_picks(falling("float")), std::vector{1});
     EXPECT_EQ(beyond_double(falling("double")), std::vector{2});
+    EXPECT_EQ(unwarned(falling("double")), std::vector{2});
+    Sweep warned = falling("double");
+    warned.steps[2].warned = true;
+    EXPECT_TRUE(unwarned(warned).empty());
     Sweep unrecorded = falling("float");
     unrecorded.holds_to.reset();
     EXPECT_FALSE(is_worse_than_recorded(unrecorded));

@@ -622,6 +622,19 @@ TEST_F(CommandLine, StabilityKeepsWhatIsRecorded) {
     EXPECT_EQ(sweeps[0]["steps"][8]["chosen"], "double");
 }
 
+TEST_F(CommandLine, StabilityWarnsWhereDoubleIsNotEnough) {
+    const auto result =
+        scc({"stability", "distance", "shear", "bricks", "inside", "tunnel", "--size", "32x32", "--json"});
+    ASSERT_EQ(result.code, 0) << result.out << result.err;
+    const auto sweeps = nlohmann::json::parse(result.out)["sweeps"];
+    for (const auto& sweep : sweeps) {
+        EXPECT_EQ(sweep["thresholds"]["auto"], sweep["recorded_threshold"]) << sweep["name"];
+        EXPECT_TRUE(sweep["auto"]["wrong_picks"].empty()) << sweep["name"];
+    }
+    EXPECT_EQ(sweeps[0]["auto"]["beyond_double"], (std::vector{12, 13, 14, 15}));
+    EXPECT_TRUE(sweeps[0]["auto"]["unwarned"].empty());
+}
+
 TEST_F(CommandLine, StabilityMovesAndScalesAUsersScene) {
     write("s.scn", "perspective_camera { eye = (1, 2, 5) }\n"
                    "point_light { position = (3, 4, 5), attenuation = (0.5, 0.1, 0.02) }\n"

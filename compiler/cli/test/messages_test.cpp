@@ -39,6 +39,7 @@ const std::map<Diag, Case>& cases() {
          {"group {\n  name = \"table\"\n  transform = scale(2e-8, 1, 1)\n  group {\n    transform = "
           "scale(2e-8, 1, 1)\n"
           "    sphere { transform = scale(0.1, 1, 1) }\n  }\n}\n"}},
+        {Diag::endless_transform, {"sphere { transform = translate(log(0), 0, 0) }\n"}},
         {Diag::open_solid,
          {"difference {\n  box { }\n  cylinder { radius = 0.5, caps = false }\n  disc { }\n"
           "  heightfield { field = fn(uv: vec2) = uv.x, cells = (2, 2) }\n"
@@ -84,6 +85,7 @@ const std::map<Diag, Case>& cases() {
          {"plane { }\ndisc { center = (0, 0.001, 0) }\nperspective_camera {\n  eye = (0, 20, 100)\n  near = "
           "0.1\n}\nrender { method = raster { } }\n"}},
         {Diag::far_from_origin, {"for (i in 0..3) {\n  sphere { center = (1e6, i, 0) }\n}\n"}},
+        {Diag::beyond_double, {"sphere { }\northographic_camera { eye = (0, 0, 1e14), height = 4 }\n"}},
         {Diag::no_camera, {"sphere { }\n"}},
         {Diag::no_light, {"sphere { }\n"}},
         {Diag::one_frame,
