@@ -96,8 +96,11 @@ private:
                            .bound = account.bound});
     }
 
+    bool has_reflection(const Phong<double>& p) const {
+        return needs_.sees_through() ? is_present(p.reflect) : has_mirror(p);
+    }
     bool reflects(std::uint32_t material) const {
-        return needs_.bounces > 0 && has_mirror(scene_.materials[material].phong);
+        return needs_.bounces > 0 && has_reflection(scene_.materials[material].phong);
     }
 
     void record(const ir::Object& object) {
@@ -181,14 +184,13 @@ private:
         const Phong<double>& p = material.phong;
         add({Fidelity::exact, "the formula in nodes, one view layer per light"}, "phong", material.name,
             material.span);
-        if (needs_.bounces > 0 && has_mirror(p)) {
-            add({Fidelity::exact, "one view layer per number of bounces"}, "reflect", material.name,
-                material.span);
+        if (needs_.bounces > 0 && has_reflection(p)) {
+            add({Fidelity::exact, needs_.sees_through() ? "one view layer per sequence of ways"
+                                                        : "one view layer per number of bounces"},
+                "reflect", material.name, material.span);
         }
         if (lets_through(p)) {
-            add({Fidelity::dropped,
-                 "nothing is seen through surfaces in Blender, and their shadows are black"},
-                p.fresnel ? "glass" : "transparency", material.name, material.span);
+            record_transparency(p, material);
         }
         record_function(p.ambient.function, "ambient", material);
         record_function(p.diffuse.function, "diffuse", material);
@@ -201,6 +203,24 @@ private:
                  "the height's slope in nodes, which tilts the normal; not of the artist's look"},
                 "phong bump", material.name, material.span);
         }
+    }
+    void record_transparency(const Phong<double>& p, const ir::Material& material) {
+        const std::string feature = p.fresnel != 0 ? "glass" : "transparency";
+        if (!needs_.sees_through()) {
+            add({Fidelity::dropped,
+                 "nothing is seen through surfaces, and their shadows are black: " + needs_.ways.obstacle},
+                feature, material.name, material.span);
+        } else if (p.ior == 1 && p.fresnel == 0) {
+            add({Fidelity::exact, "one view layer per sequence of ways; shadows are dimmed"}, feature,
+                material.name, material.span);
+        } else {
+            add({Fidelity::approximated,
+                 "one view layer per sequence of ways; rays leave curved surfaces from the mesh, with the "
+                 "exact normal; bound in radiance at outlines",
+                 1},
+                feature, material.name, material.span);
+        }
+        record_function(p.transmit.function, "transmit", material);
     }
     void record_function(std::int32_t function, std::string_view field, const ir::Material& material) {
         if (function == runtime::no_function) {
@@ -317,7 +337,15 @@ private:
     }
 
     void record_settings() {
-        if (needs_.cut_off > 0) {
+        if (needs_.sees_through()) {
+            add({needs_.cut_off > 0 ? Fidelity::approximated : Fidelity::exact,
+                 fmt::format(
+                     "{} sequences of at most {} surfaces; bound: share of the light that one of the others "
+                     "could add",
+                     needs_.ways.paths.size(), needs_.bounces),
+                 needs_.cut_off},
+                "depth", "render", scene_.camera_span);
+        } else if (needs_.cut_off > 0) {
             add({Fidelity::approximated,
                  fmt::format("{} of {} bounces; bound: share of the light that the others could add",
                              needs_.bounces, scene_.settings.depth),

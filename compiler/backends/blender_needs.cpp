@@ -1,5 +1,6 @@
 #include "compiler/backends/blender_needs.h"
 
+#include "compiler/backends/enclosed.h"
 #include "compiler/bounds.h"
 #include "compiler/ir/objects.h"
 #include "runtime/illumination.h"
@@ -39,26 +40,6 @@ bool reads_p(const ir::Function& function) {
 }
 bool reads_point(const ir::Function& function) {
     return reads_p(function) || function.reads(Input::world_x, Input::world_z);
-}
-
-// Whether the eye is inside a closed shape: from elsewhere its back side is never seen.
-bool encloses(const runtime::Sphere<double>& sphere, const Vec3<double>& eye) {
-    return length(eye - sphere.center) <= sphere.radius;
-}
-bool encloses(const runtime::Box<double>& box, const Vec3<double>& eye) {
-    const Vec3<double> low = eye - box.min, high = box.max - eye;
-    return std::min({low.x, low.y, low.z, high.x, high.y, high.z}) >= 0;
-}
-bool encloses(const runtime::Cylinder<double>& cylinder, const Vec3<double>& eye) {
-    const Vec3<double> axis = cylinder.to - cylinder.from, start = eye - cylinder.from;
-    const double along = dot(start, axis) / dot(axis, axis);
-    return along >= 0 && along <= 1 && length(start - along * axis) <= cylinder.radius;
-}
-bool encloses(const runtime::Cone<double>& cone, const Vec3<double>& eye) {
-    const Vec3<double> axis = cone.to - cone.from, start = eye - cone.from;
-    const double along = dot(start, axis) / dot(axis, axis);
-    const double radius = cone.radius_from + along * (cone.radius_to - cone.radius_from);
-    return along >= 0 && along <= 1 && length(start - along * axis) <= radius;
 }
 
 // From which sides a mirror ray that leaves a shape can meet the same shape again.
@@ -155,6 +136,10 @@ public:
     }
 
     BlenderNeeds find() {
+        if (std::any_of(scene_.materials.begin(), scene_.materials.end(),
+                        [](const ir::Material& material) { return lets_through(material.phong); })) {
+            needs_.ways = blender_paths(scene_);
+        }
         needs_.solids = blender_solids(scene_);
         ir::for_each_object(scene_, [&](const ir::Object& object) { add(object); });
         for (const ir::Light& light : scene_.lights) {
@@ -166,12 +151,7 @@ public:
                 add(scene_.materials[i].phong);
             }
         }
-        const Mirrors mirrors(scene_);
-        needs_.bounces = mirrors.bounces();
-        needs_.cut_off = mirrors.cut_off(needs_.bounces);
-        if (needs_.bounces > 0) {
-            want("mirror");
-        }
+        find_paths();
         add(scene_.camera);
         measure();
         return std::move(needs_);
@@ -179,6 +159,26 @@ public:
 
 private:
     void want(std::string_view feature) { needs_.features.emplace(feature); }
+
+    void find_paths() {
+        if (needs_.sees_through()) {
+            const auto longest = std::max_element(
+                needs_.ways.paths.begin(), needs_.ways.paths.end(),
+                [](const std::string& a, const std::string& b) { return a.size() < b.size(); });
+            needs_.bounces = static_cast<int>(longest->size());
+            needs_.cut_off = needs_.ways.cut_off;
+            want("through");
+            want("mirror");
+            return;
+        }
+        const Mirrors mirrors(scene_);
+        needs_.bounces = mirrors.bounces();
+        needs_.cut_off = mirrors.cut_off(needs_.bounces);
+        want("opaque");
+        if (needs_.bounces > 0) {
+            want("mirror");
+        }
+    }
 
     void add(const runtime::Camera<double>& camera) {
         want(camera.projection == runtime::Projection::spherical ? "panorama" : "window");
@@ -312,7 +312,9 @@ private:
             want("bump");
         }
         Phong<double> drawn = phong;
-        drawn.transmit = {}; // is not written
+        if (!needs_.sees_through()) {
+            drawn.transmit = {}; // is not written
+        }
         for (const std::int32_t function : ir::functions_of(drawn)) {
             if (function != runtime::no_function) {
                 needs_.functions[static_cast<std::size_t>(function)] = true;

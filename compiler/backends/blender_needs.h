@@ -1,6 +1,7 @@
 #pragma once
 
 #include "compiler/backends/blender_library.h"
+#include "compiler/backends/blender_paths.h"
 #include "compiler/backends/blender_solid.h"
 #include "compiler/ir/objects.h"
 #include "compiler/ir/scene.h"
@@ -18,10 +19,14 @@ struct BlenderNeeds {
     std::vector<bool> meshes;
     BlenderSolids solids;
     std::vector<const ir::Image*> images; ///< of those functions, each once
-    int bounces = 0;                      ///< mirror bounces that can be seen
+    BlenderPaths ways;                    ///< if some material lets light through
+    int bounces = 0;                      ///< mirror bounces that can be seen, or the most surfaces on a way
     double cut_off = 0; ///< of the radiance that arrives at the last bounce, what share later ones could add
     runtime::Vec3<double> center; ///< of what is bounded, the lights and the camera
     double extent = 1;            ///< their distance from `center` at most
+
+    /// Whether something is seen through surfaces.
+    bool sees_through() const { return !ways.paths.empty(); }
 };
 
 BlenderNeeds blender_needs(const ir::Scene& scene);
@@ -29,7 +34,7 @@ BlenderNeeds blender_needs(const ir::Scene& scene);
 /// Of a material: some channel is not 0, or varies.
 bool is_present(const runtime::Varying<runtime::Rgb<double>>& color);
 
-/// Glass is left out: its mirror image alone would make it one of silver.
+/// Fresnel's is left out where nothing is seen through it: its mirror image alone would make glass silver.
 inline bool has_mirror(const runtime::Phong<double>& phong) {
     return is_present(phong.reflect) && !phong.fresnel;
 }

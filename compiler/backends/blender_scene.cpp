@@ -42,6 +42,9 @@ private:
         const runtime::RenderSettings& settings = scene_.settings;
         out_.line("NAME = {}", python(scene_.name.empty() ? "scene" : scene_.name));
         out_.line("SIZE = ({}, {})", settings.width, settings.height);
+        if (has("through")) {
+            write_paths();
+        }
         out_.line("BOUNCES = {}", needs_.bounces);
         if (has("light")) {
             out_.line("SHADOWS = {}", settings.shadows ? "True" : "False");
@@ -53,6 +56,19 @@ private:
         }
         out_.line("EXTENT = {}  # half the size of what is bounded, the lights and the camera together",
                   python(needs_.extent));
+    }
+
+    void write_paths() {
+        out_.line("# One view layer each follows what goes through surfaces (T) and what is mirrored (R).");
+        std::string line = "PATHS = (";
+        for (const std::string& path : needs_.ways.paths) {
+            line += '"' + path + "\", ";
+            if (line.size() > 100) {
+                out_.raw_line(line.substr(0, line.size() - 1));
+                line = "         ";
+            }
+        }
+        out_.raw_line(line + ")");
     }
 
     void write_camera() {
@@ -212,8 +228,12 @@ private:
         if (is_present(phong.emission)) {
             text += ", emission=" + field(phong.emission);
         }
-        if (has("mirror") && has_mirror(phong)) {
+        if (has("mirror") && (has_mirror(phong) || (has("through") && is_present(phong.reflect)))) {
             text += ", reflect=" + field(phong.reflect);
+        }
+        if (has("through") && (lets_through(phong) || phong.fresnel != 0)) {
+            text += fmt::format(", transmit={}, ior={}", field(phong.transmit), python(phong.ior));
+            text += phong.fresnel != 0 ? ", fresnel=1.0" : "";
         }
         if (phong.bump != runtime::no_function) {
             text += fmt::format(", bump=\"{}\"", keys_[static_cast<std::size_t>(phong.bump)]);
@@ -278,6 +298,10 @@ private:
             }
             text += fmt::format(", name={}", python(object.path));
             text += ", " + (solid != needs_.solids.end() ? faces(solid->second) : materials(object.sides));
+            if (const auto around = needs_.ways.outside.find(object.path);
+                around != needs_.ways.outside.end()) {
+                text += ", outside=" + python(around->second);
+            }
             if (!(object.world_from_object == runtime::Affine<double>{})) {
                 text += fmt::format(", world={}", python(object.world_from_object));
             }

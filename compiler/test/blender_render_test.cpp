@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdio>
 
 /// The emitted scripts in Blender.
 namespace scc::compiler {
@@ -102,6 +103,58 @@ point_light { position = (1, 4, 3) }
 sphere { center = (0, 1, -2), radius = 0.7, material = phong { diffuse = rgb(0.8, 0.2, 0.1) } }
 box { min = (-3, 0, 1), max = (-2, 2, 2) }
 )";
+
+const std::string floor_of_tiles = R"(
+world { ambient = rgb(0.2, 0.2, 0.2), background = rgb(0.35, 0.5, 0.7) }
+perspective_camera { eye = (0.5, 1.5, 5), target = (0, 0.6, 0), fov_y = 40deg }
+point_light { position = (3, 6, 4), color = rgb(0.9, 0.9, 0.9) }
+fn tiles(s: surface) -> color =
+  if ((floor(s.p.x) + floor(s.p.z)) % 2 == 0) rgb(0.85, 0.8, 0.7) else rgb(0.15, 0.2, 0.25)
+disc { radius = 6, material = phong { diffuse = tiles } }
+let tinted = phong { diffuse = rgb(0.1, 0, 0), transmit = rgb(0.6, 0.4, 0.5) }
+let water = phong { diffuse = rgb(0, 0, 0), transmit = rgb(0.8, 0.9, 0.95), ior = 1.33 }
+)";
+
+/// With coloured shadows. Curved bodies show their meshes where what is behind them changes.
+TEST_F(BlenderRender, SeesThroughSurfacesAsWeDo) {
+    struct Case {
+        const char *name, *shapes;
+        int differing;
+    };
+    for (const Case& one : {
+             Case{"pane", "box { min = (-1, 0.1, -0.2), max = (1, 1.3, 0.2), material = tinted }", 0},
+             Case{"mirroring pane",
+                  "box { min = (-1, 0.1, -0.2), max = (1, 1.3, 0.2), material = phong { diffuse = rgb(0, 0, "
+                  "0), "
+                  "transmit = rgb(0.6, 0.4, 0.5), reflect = rgb(0.2, 0.2, 0.2) } }",
+                  0},
+             Case{"opacity",
+                  "cylinder { from = (0, 0.1, 0), to = (0, 1.5, 0), radius = 0.5, material = phong { diffuse "
+                  "= "
+                  "rgb(0.2, 0.6, 0.25), opacity = fn(s: surface) = 0.9 - 0.35 * s.p.y } }",
+                  2},
+             Case{"slab",
+                  "box { min = (-1, 0.1, -0.2), max = (1, 1.3, 0.2), material = water, transform = "
+                  "rotate_y(20deg) }",
+                  0},
+             Case{"prism",
+                  "box { min = (-0.5, 0.1, -0.5), max = (0.5, 1.1, 0.5), material = water, transform = "
+                  "rotate_y(30deg) }",
+                  3},
+             Case{"ball", "sphere { center = (0, 0.9, 0), radius = 0.7, material = water }", 6},
+             Case{"glass", "sphere { center = (0, 0.9, 0), radius = 0.7, material = glass { ior = 1.5 } }",
+                  55},
+             Case{"bubble",
+                  "sphere { center = (0, 0.9, 0), radius = 0.7, material = water }\n"
+                  "sphere { center = (0.1, 1, 0.1), radius = 0.3, material = phong { diffuse = rgb(0, 0, 0), "
+                  "transmit = rgb(1, 1, 1) } }",
+                  10},
+         }) {
+        const int differing = differing_pixels(scene_of(floor_of_tiles + one.shapes));
+        std::printf("%s: %d pixels differ by more than 1e-4\n", one.name, differing);
+        EXPECT_LE(differing, one.differing) << one.name;
+    }
+}
 
 TEST_F(BlenderRender, PanoramasAndTheCornersOfPixelsAgree) {
     ir::Scene scene = scene_of(things_around + "spherical_camera { eye = (0, 1.5, 1), target = (1, 1.2, -1), "

@@ -119,6 +119,51 @@ TEST(BlenderBounces, EndWhereNothingArrivesAnyMore) {
     EXPECT_EQ(find(ledger, "depth")->fidelity, Fidelity::approximated);
 }
 
+TEST(BlenderPaths, FollowWhatCountsMost) {
+    const auto paths = [](const std::string& shapes) {
+        return blender_paths(scene_of(shapes + "\nrender { method = ray { depth = 4 } }")).paths;
+    };
+    const std::string pane = "box { material = phong { transmit = rgb(0.5, 0.5, 0.5) } }";
+    // Light that has left the only body meets no other.
+    EXPECT_EQ(paths(pane), (std::vector<std::string>{"", "T", "TT"}));
+    const std::vector<std::string> ball = paths("sphere { material = glass { } }");
+    for (const char* const path : {"", "T", "R", "TT", "TRT", "TRRRRT"}) {
+        EXPECT_NE(std::find(ball.begin(), ball.end(), path), ball.end()) << path;
+    }
+    EXPECT_EQ(std::find(ball.begin(), ball.end(), "TTT"), ball.end());
+    const std::vector<std::string> two = paths(pane + "\n" + pane);
+    EXPECT_NE(std::find(two.begin(), two.end(), "TTTT"), two.end());
+    EXPECT_LE(paths("sphere { material = glass { } }\nbox { material = glass { } }").size(), 100U);
+}
+
+TEST(BlenderPaths, KnowWhatLiesInWhat) {
+    const std::string water = "let water = phong { transmit = rgb(1, 1, 1), ior = 1.33 }\n"
+                              "let air = phong { transmit = rgb(1, 1, 1) }\n";
+    const auto inside = blender_paths(scene_of(
+        water +
+        "sphere { name = \"drop\", material = water }\n"
+        "sphere { name = \"bubble\", radius = 0.5, material = air }\n"
+        "group { name = \"tank\", transform = rotate_y(30deg) then translate(5, 0, 0)\n"
+        "  box { name = \"glass\", material = glass { ior = 1.5 } }\n"
+        "  box { name = \"water\", min = (-0.9, -0.9, -0.9), max = (0.9, 0.9, 0.9), material = water }\n"
+        "  sphere { name = \"ice\", radius = 0.5, material = phong { transmit = rgb(1, 1, 1), ior = 1.31 } "
+        "}\n"
+        "}\n"));
+    EXPECT_EQ(inside.obstacle, "");
+    EXPECT_EQ(inside.outside,
+              (std::map<std::string, double>{{"bubble", 1.33}, {"tank/water", 1.5}, {"tank/ice", 1.33}}));
+    const auto obstacle = [&](const std::string& shapes) {
+        return blender_paths(scene_of(water + shapes)).obstacle;
+    };
+    EXPECT_EQ(
+        obstacle("sphere { material = water }\nbox { min = (0, 0, 0), max = (2, 2, 2), material = water }"),
+        "`sphere` and `box` may overlap");
+    EXPECT_EQ(obstacle("disc { material = water }"), "`disc` bends rays and encloses nothing");
+    EXPECT_EQ(obstacle("sphere { material = air }\nbox { material = air }"), "");
+    EXPECT_EQ(obstacle("sphere { material = water }\nsphere { center = (1.5, 1.5, 0), material = water }"),
+              "");
+}
+
 TEST(BlenderLedger, TellsHowEachFeatureGoesOver) {
     Ledger ledger;
     const ir::Scene scene = scene_of(rich_scene());

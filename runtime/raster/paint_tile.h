@@ -343,8 +343,9 @@ private:
             }
         }
         for (int y = pixels.y0; y < pixels.y1; ++y) {
-            std::copy_n(background_.data(), numbers, image.at(pixels.x0 - crop.x0, y - crop.y0));
+            stream(background_.data(), numbers, image.at(pixels.x0 - crop.x0, y - crop.y0));
         }
+        streams_end();
     }
     void store_aovs(int column, int row, std::uint32_t entry, std::size_t i, AovImage& to) const {
         const auto put = [i](auto& list, auto value) {

@@ -3,6 +3,7 @@
 #include "runtime/image.h"
 #include "runtime/raster/fill.h"
 #include "runtime/raster/interleave.h"
+#include "runtime/raster/stream.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -67,28 +68,26 @@ public:
     }
 
 private:
-    /// One for each pixel.
+    /// One for each pixel, a row of blocks at a time.
     void store_samples(const Crop& pixels, const Crop& crop, Image& image) const {
         constexpr int row_floats = 3 * Buffer::block_width;
-        for_each_block(pixels, [&](std::size_t block, int column, int row) {
-            float colors[std::size_t{3} * N];
-            store_interleaved(blocks_[block], colors);
-            const int x = left_ + column, y = top_ + row;
-            if (x >= pixels.x0 && y >= pixels.y0 && x + Buffer::block_width <= pixels.x1 &&
-                y + Buffer::block_height <= pixels.y1) {
+        alignas(64) float rows[Buffer::block_height][std::size_t{3} * Buffer::size];
+        const int x1 = pixels.x1 - left_, y1 = pixels.y1 - top_;
+        for (int row = 0; row < y1; row += Buffer::block_height) {
+            for (int column = 0; column < x1; column += Buffer::block_width) {
+                float colors[std::size_t{3} * N];
+                store_interleaved(blocks_[Buffer::block_of(column, row)], colors);
                 for (int j = 0; j < Buffer::block_height; ++j) {
-                    std::memcpy(image.at(x - crop.x0, y + j - crop.y0), colors + j * row_floats,
-                                row_floats * sizeof(float));
+                    std::memcpy(rows[j] + 3 * column, colors + j * row_floats, row_floats * sizeof(float));
                 }
-                return;
             }
-            const int x0 = std::max(x, pixels.x0), x1 = std::min(x + Buffer::block_width, pixels.x1),
-                      y0 = std::max(y, pixels.y0), y1 = std::min(y + Buffer::block_height, pixels.y1);
-            for (int j = y0; j < y1; ++j) {
-                std::copy_n(colors + (j - y) * row_floats + 3 * (x0 - x), 3 * (x1 - x0),
-                            image.at(x0 - crop.x0, j - crop.y0));
+            const int x0 = std::max(pixels.x0 - left_, 0), y0 = std::max(pixels.y0 - top_ - row, 0);
+            for (int j = y0; j < std::min(Buffer::block_height, y1 - row); ++j) {
+                stream(rows[j] + 3 * x0, static_cast<std::size_t>(3 * (x1 - x0)),
+                       image.at(left_ + x0 - crop.x0, top_ + row + j - crop.y0));
             }
-        });
+        }
+        streams_end();
     }
     Rgb<R> at(int column, int row) const {
         const std::size_t sample = Buffer::sample_of(column, row);

@@ -87,6 +87,9 @@ DEFAULTS = dict(
     #: bump
     bump=BLACK,
     #: end
+    #: through
+    transmit=BLACK, ior=1.0, fresnel=0.0,
+    #: end
 )
 
 
@@ -114,6 +117,9 @@ class Materials:
         back = o.get("back", front)
         single = o["name"] if kind in SINGLE else ""
         key = kind, single, front, back
+        #: through
+        key = *key, o.get("outside", 1.0)
+        #: end
         if key not in self.made:
             self.made[key] = self.make(kind, single, front, back, o)
         return self.made[key]
@@ -128,6 +134,10 @@ class Materials:
         g = Graph(material.node_tree)
         hit = g.group(self.hits[kind, single])
         sides = [one_side(g, side, hit) for side in dict.fromkeys((front, back))]
+        #: through
+        for fields in sides:
+            fields["ior"] /= o.get("outside", 1.0)
+        #: end
         g.put(g.add("ShaderNodeOutputMaterial").inputs["Surface"], self.surface(g, sides, hit))
         return material
 
@@ -143,7 +153,8 @@ class Shape:
         """The kinds with what has their material."""
         #: solid
         if "faces" in o:
-            return [(f["kind"], dict(f, name=f"{o['name']} {k}")) for k, f in enumerate(o["faces"])]
+            common = {key: o[key] for key in ("outside",) if key in o}
+            return [(f["kind"], dict(f, **common, name=f"{o['name']} {k}")) for k, f in enumerate(o["faces"])]
         #: end
         return [(kind, o) for kind in self.kinds(o)]
 

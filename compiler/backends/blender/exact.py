@@ -1,5 +1,5 @@
 # ---------------------------------------------------------------- exact look
-# Each view layer follows the paths with a given number of mirror bounces and lights them by one light, whose
+# Each view layer follows the paths of one kind (so many mirrors, or ways through surfaces) and lights them by one light, whose
 # constants are the layer's properties; the compositor adds the layers. Toon's lobe is constant, so that the material
 # computes the whole of the lecture's formula and the lamp only says whether the light is seen.
 GAIN = 1024.0  # Cycles drops closures below 1e-5: materials are so much brighter, lamps so much dimmer
@@ -15,6 +15,9 @@ def field_inputs():
                 #: end
                 #: mirror
                 Reflect="Color",
+                #: end
+                #: through
+                Transmit="Color", Ior="Float", Fresnel="Float", Back="Float",
                 #: end
                 )
 
@@ -69,20 +72,67 @@ def phong_group():
     #: end
     #: end
     #: mirror
-    glossy = g.add("ShaderNodeBsdfGlossy", distribution="SHARP")
-    glossy.inputs["Roughness"].default_value = 0.0
-    g.put(glossy.inputs["Color"], i["Reflect"])
-    g.put(glossy.inputs["Normal"], normal)
-    mix = g.add("ShaderNodeMixShader")
-    g.put(mix.inputs[0], g.f("LESS_THAN", depth, g.f("SUBTRACT", bounce, 0.5)))
-    g.put(mix.inputs[1], shader)
-    g.put(mix.inputs[2], glossy.outputs[0])
-    shader = mix.outputs[0]
+    #: opaque
+    goes_on = mirror(g, i["Reflect"], normal)
+    #: end
+    #: through
+    goes_on = way_on(g, i, normal, depth)
+    #: end
+    shader = g.mix(g.f("LESS_THAN", depth, g.f("SUBTRACT", bounce, 0.5)), shader, goes_on)
+    #: end
+    #: through
+    shadow = g.add("ShaderNodeBsdfTransparent")
+    g.put(shadow.inputs["Color"], i["Transmit"])
+    shader = g.mix(g.add("ShaderNodeLightPath").outputs["Is Shadow Ray"], shader, shadow.outputs[0])
     #: end
     g.put(out["Shader"], shader)
     return g.tree
 
 
+#: mirror
+def mirror(g, color, normal):
+    glossy = g.add("ShaderNodeBsdfGlossy", distribution="SHARP")
+    glossy.inputs["Roughness"].default_value = 0.0
+    g.put(glossy.inputs["Color"], color)
+    g.put(glossy.inputs["Normal"], normal)
+    return glossy.outputs[0]
+
+
+#: end
+#: through
+def way_on(g, i, normal, depth):
+    """Through the surface or mirrored, as the layer's path says for this depth: 1 or 0 is the bit of `scc_path`. What is
+    totally reflected goes the way through. Snell's law is Cycles' own, which takes 1 / IOR on the back side."""
+    ior, back = i["Ior"], i["Back"]
+    eta = g.select(back, g.f("DIVIDE", 1.0, ior), ior)  # behind the surface over before it
+    cosine = g.v("DOT_PRODUCT", normal, g.add("ShaderNodeNewGeometry").outputs["Incoming"])
+    sine = g.f("DIVIDE", g.f("SUBTRACT", 1.0, g.f("MULTIPLY", cosine, cosine)), g.f("MULTIPLY", eta, eta))
+    square = g.f("SUBTRACT", 1.0, sine)  # of the refracted ray's cosine
+    refracted = g.f("SQRT", g.f("MAXIMUM", square, 0.0))
+    across = fresnel_term(g, cosine, g.f("MULTIPLY", eta, refracted))
+    along = fresnel_term(g, refracted, g.f("MULTIPLY", eta, cosine))
+    share = g.f("MULTIPLY", g.f("MULTIPLY_ADD", across, across, g.f("MULTIPLY", along, along)), 0.5)
+    share = g.select(g.f("COMPARE", eta, 1.0, 1e-7), 0.0, share)
+    r, t, b = g.split(i["Transmit"])
+    clear = g.f("GREATER_THAN", g.f("MAXIMUM", g.f("MAXIMUM", r, t), b), 0.0)
+    total = g.f("MULTIPLY", clear, g.f("LESS_THAN", square, 0.0))
+    refraction = g.add("ShaderNodeBsdfRefraction", distribution="SHARP")
+    refraction.inputs["Roughness"].default_value = 0.0
+    g.put(refraction.inputs["IOR"], ior)
+    g.put(refraction.inputs["Normal"], normal)
+    g.put(refraction.inputs["Color"],
+          g.v("SCALE", i["Transmit"], g.f("SUBTRACT", 1.0, g.f("MULTIPLY", i["Fresnel"], share))))
+    through = g.mix(total, refraction.outputs[0], mirror(g, (1.0, 1.0, 1.0), normal))
+    part = g.f("MULTIPLY", g.select(i["Fresnel"], share, 1.0), g.f("SUBTRACT", 1.0, total))
+    bit = g.f("FLOOR", g.f("DIVIDE", g.layer("scc_path", "Fac"), g.f("POWER", 2.0, depth)))
+    return g.mix(g.f("MODULO", bit, 2.0), mirror(g, g.v("SCALE", i["Reflect"], part), normal), through)
+
+
+def fresnel_term(g, a, b):
+    return g.f("DIVIDE", g.f("SUBTRACT", a, b), g.f("MAXIMUM", g.f("ADD", a, b), 1e-20))
+
+
+#: end
 #: light
 #: smooth
 def light_from_below(g, light, to_light):
@@ -104,7 +154,7 @@ def either_side(g, front, back, side):
         b = back[key]
         if a == b:
             fields[key] = a
-        elif key == "shininess":
+        elif key in ("shininess", "ior", "fresnel"):
             fields[key] = g.f("MULTIPLY_ADD", side, b, g.f("MULTIPLY", g.f("SUBTRACT", 1.0, side), a))
         else:
             fields[key] = choose(g, side, a, b)
@@ -132,6 +182,9 @@ def exact_surface(g, sides, hit):
     normal = bumped(g, normal, hit["Outward"], fields["bump"])
     #: end
     inputs = {key: fields[key.lower()] for key in phong_group().inputs.keys() if key.lower() in fields}
+    #: through
+    inputs["Back"] = hit["Back"]
+    #: end
     return g.group(phong_group(), Position=hit["Position"], Normal=normal, **inputs)["Shader"]
 
 
@@ -185,17 +238,23 @@ def layer_properties(light):
 
 
 def exact_layers(scene, lamps):
-    """One view layer per number of bounces and light, and the sum of all."""
+    """One view layer per path and light, and the sum of all."""
     scene.use_nodes = True
     tree, first, total = scene.node_tree, scene.view_layers[0], None
     tree.nodes.clear()
     lights = list(LIGHTS.items()) or [("no light", None)]
-    for bounce in range(BOUNCES + 1):
+    paths = ["R" * bounce for bounce in range(BOUNCES + 1)]
+    #: through
+    paths = PATHS
+    #: end
+    for path in paths:
         for number, (name, light) in enumerate(lights):
-            layer = scene.view_layers.new(short(f"{bounce} {name}"))
+            layer = scene.view_layers.new(short(f"{len(path)}{path} {name}"))
             for other, lamp in lamps.items():
                 layer.layer_collection.children[lamp.name].exclude = other != name
-            properties = dict(layer_properties(light), scc_bounce=float(bounce), scc_glow=float(number == 0))
+            properties = dict(layer_properties(light), scc_bounce=float(len(path)),
+                              scc_path=float(sum(2 ** k for k, way in enumerate(path) if way == "T")),
+                              scc_glow=float(number == 0))
             for key, value in properties.items():
                 layer[key] = value
             node = tree.nodes.new("CompositorNodeRLayers")
@@ -220,6 +279,9 @@ def exact_settings(scene, lamps):
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0.0
     cycles.max_bounces = cycles.glossy_bounces = BOUNCES
     cycles.diffuse_bounces = cycles.transmission_bounces = 0
+    #: through
+    cycles.transmission_bounces, cycles.transparent_max_bounces = BOUNCES, 1024
+    #: end
     cycles.min_light_bounces = 1024
     exact_layers(scene, lamps)
 

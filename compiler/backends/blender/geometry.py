@@ -104,7 +104,10 @@ def band(n, rows):
 def sphere_divisions(o):
     """So many that the outline is right to a 250th of a pixel, within reason."""
     needed = math.log(0.12 * 250 * apparent_radius(o, o["center"], o["radius"]), 4)
-    return min(max(math.ceil(needed), 3), 7)
+    #: through
+    needed += 1  # rays leave from the mesh, and what they show through the ball moves more than its outline
+    #: end
+    return min(max(math.ceil(needed), 3), 8)
 
 
 def sphere_mesh(o):

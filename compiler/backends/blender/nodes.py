@@ -35,7 +35,7 @@ class Graph:
             self.put(socket, value)
         return node.outputs[0]
 
-    #: function field
+    #: function field through
     def select(self, truth, if_so, if_not):
         return self.f("MULTIPLY_ADD", truth, if_so, self.f("MULTIPLY", self.f("SUBTRACT", 1.0, truth), if_not))
 
@@ -72,6 +72,14 @@ class Graph:
         node = self.add("ShaderNodeAddShader")
         self.put(node.inputs[0], first)
         self.put(node.inputs[1], second)
+        return node.outputs[0]
+
+    #: end
+    #: mirror
+    def mix(self, part, first, second):
+        node = self.add("ShaderNodeMixShader")
+        for socket, value in zip(node.inputs, (part, first, second)):
+            self.put(socket, value)
         return node.outputs[0]
 
     #: end
