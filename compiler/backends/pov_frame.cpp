@@ -84,7 +84,10 @@ constexpr double comfortable_size = 8;
 
 /// Neighbouring triangles of a mesh shadow each other over short distances, and POV-Ray sees no occluder
 /// nearer than 1e-3: such scenes are written larger, at the price of the horizon.
-constexpr double comfortable_mesh_size = 4096;
+constexpr double comfortable_mesh_size = 512;
+
+/// Rays cross the corners of bodies that let light through over ways as short as one likes.
+constexpr double comfortable_glass_size = 4096;
 
 } // namespace
 
@@ -102,7 +105,7 @@ std::string PovFrame::texture_transform() const {
 namespace {
 
 /// Surfaces that shadow and mirror themselves, or neighbours that do so to each other, at distances far below
-/// their size; and bodies that let light through, which rays cross at their corners over as short a way.
+/// their size.
 bool has_folds(const ir::Scene& scene) {
     const auto count = [&]<class Shape>(const Shape&) {
         return std::count_if(scene.objects.begin(), scene.objects.end(), [](const ir::Object& object) {
@@ -110,9 +113,17 @@ bool has_folds(const ir::Scene& scene) {
         });
     };
     return !scene.meshes.empty() || count(runtime::Implicit<double>{}) > 0 ||
-           count(runtime::Triangle<double>{}) > 1 ||
-           std::any_of(scene.materials.begin(), scene.materials.end(),
-                       [](const ir::Material& material) { return lets_through(material.phong); });
+           count(runtime::Triangle<double>{}) > 1;
+}
+
+/// The extent to which a scene is scaled.
+double wanted_size(const ir::Scene& scene) {
+    const bool lets_light_through =
+        std::any_of(scene.materials.begin(), scene.materials.end(),
+                    [](const ir::Material& material) { return lets_through(material.phong); });
+    return lets_light_through ? comfortable_glass_size
+           : has_folds(scene) ? comfortable_mesh_size
+                              : comfortable_size;
 }
 
 } // namespace
@@ -124,9 +135,8 @@ PovFrame choose_frame(const ir::Scene& scene) {
     if (!(extent > 0) || !std::isfinite(extent)) {
         return frame;
     }
-    const bool folds = has_folds(scene);
-    const double wanted = folds ? comfortable_mesh_size : comfortable_size;
-    const double smallest = folds ? comfortable_mesh_size / 2 : 1;
+    const double wanted = wanted_size(scene);
+    const double smallest = wanted > comfortable_size ? wanted / 2 : 1;
     if (extent < smallest || extent > 1000) {
         frame.scale = nearest_power_of_two(wanted / extent);
     }
