@@ -7,6 +7,7 @@
 #include "runtime/raster/shade_triangles.h"
 #include "runtime/raster/tile_colors.h"
 #include "runtime/raster/tile_depth.h"
+#include "runtime/raster/tile_entries.h"
 
 #include <algorithm>
 #include <array>
@@ -50,7 +51,7 @@ public:
         const auto earlier = [this](std::uint32_t a, std::uint32_t b) { return is_earlier(a, b); };
         for (const Bin<R>& bin : bins_) {
             for (const SmallTriangle<R>& t : bin.small_of[index]) {
-                buffer_.fill(t, add_entry(t.id), earlier);
+                buffer_.fill(t, entries_.add(t.id), earlier);
             }
             const std::vector<std::uint32_t>& others = bin.triangles_of[index];
             for (std::size_t i = 0; i < others.size(); ++i) {
@@ -58,7 +59,7 @@ public:
                 prefetch_bytes(&bin.triangles[others[std::min(i + ahead, others.size() - 1)]],
                                sizeof(ScreenTriangle<R>));
                 const ScreenTriangle<R>& t = bin.triangles[others[i]];
-                const std::uint32_t entry = add_entry(t.id);
+                const std::uint32_t entry = entries_.add(t.id);
                 if (S::traits.transmission && (t.id & lets_light_through) != 0) {
                     through_.push_back({&t, entry});
                 } else {
@@ -66,12 +67,12 @@ public:
                 }
             }
         }
-        first_line_ = static_cast<std::uint32_t>(entries_.size());
+        first_line_ = entries_.size();
         if constexpr (S::traits.lines) {
             for (const Bin<R>& bin : bins_) {
                 for (const std::uint32_t i : bin.lines_of[index]) {
                     const ScreenLine<R>& line = bin.lines[i];
-                    const std::uint32_t entry = add_entry(line.segment);
+                    const std::uint32_t entry = entries_.add(line.segment);
                     const SampleBox box{buffer_.left(), buffer_.top(), buffer_.left() + Buffer::size,
                                         buffer_.top() + Buffer::size};
                     draw_line(line, box, [&](std::int32_t column, std::int32_t row, const R& z) {
@@ -92,11 +93,12 @@ public:
             }
             return;
         }
+        entries_.clear_marks();
+        mark_samples(pixels);
         if constexpr (S::traits.transmission) {
             find_fragments();
         }
-        number_samples(pixels);
-        shader_.prepare();
+        prepare_shader();
         shade(pixels);
         if constexpr (S::traits.transmission) {
             blend();
@@ -125,7 +127,7 @@ public:
         const auto add = [&](std::uint32_t id, const R& z, bool is_line) {
             found.push_back(
                 {id, z, is_line,
-                 seen != no_entry && entries_[seen].id == id && (seen >= first_line_) == is_line});
+                 seen != no_entry && entries_.id(seen) == id && (seen >= first_line_) == is_line});
         };
         Buffer empty;
         empty.clear(buffer_.left(), buffer_.top(), std::numeric_limits<R>::max());
@@ -161,8 +163,9 @@ public:
         const Crop pixels = tiles_.pixels_of(tile);
         const bool is_empty = entries_.empty();
         if (!is_empty) {
-            number_samples(pixels);
-            shader_.prepare();
+            entries_.clear_marks();
+            mark_samples(pixels);
+            prepare_shader();
         }
         const int left = tiles_.left_of(tile), top = tiles_.top_of(tile);
         for (int y = pixels.y0; y < pixels.y1; ++y) {
@@ -178,11 +181,6 @@ public:
     }
 
 private:
-    /// A triangle or line that the tile may show.
-    struct Entry {
-        std::uint32_t id;     ///< of a line its segment
-        std::uint32_t number; ///< that the shader has given it, or no_entry
-    };
     struct Through {
         const ScreenTriangle<R>* triangle;
         std::uint32_t entry;
@@ -206,14 +204,10 @@ private:
         }
         entries_.reserve(count);
     }
-    std::uint32_t add_entry(std::uint32_t id) {
-        entries_.push_back({id, no_entry});
-        return static_cast<std::uint32_t>(entries_.size() - 1);
-    }
     /// Of two triangles at the same depth: in the source. A mesh's are not kept in the source's order.
     bool is_earlier(std::uint32_t a, std::uint32_t b) const {
-        const std::uint32_t first = entries_[a].id & triangle_number,
-                            second = entries_[b].id & triangle_number;
+        const std::uint32_t first = entries_.id(a) & triangle_number,
+                            second = entries_.id(b) & triangle_number;
         const RasterSurface<R>&one = surface_of_triangle(model_, first),
               &other = surface_of_triangle(model_, second);
         if (&one != &other) {
@@ -222,14 +216,6 @@ private:
         return rank_of_triangle(model_, scene_.meshes, one, first - one.first) <
                rank_of_triangle(model_, scene_.meshes, other, second - other.first);
     }
-    std::uint32_t number_of(std::uint32_t entry) {
-        Entry& e = entries_[entry];
-        if (e.number == no_entry) {
-            e.number = entry < first_line_ ? shader_.add(e.id) : shader_.add(model_.segments[e.id].color);
-        }
-        return e.number;
-    }
-
     void find_fragments() {
         fragments_.clear();
         const auto earlier = [this](std::uint32_t a, std::uint32_t b) {
@@ -238,7 +224,7 @@ private:
         for (const Through& t : through_) {
             buffer_.visit(*t.triangle, t.entry, earlier, [&](std::uint32_t sample, const R& z) {
                 fragments_.push_back({sample, t.entry, z});
-                number_of(t.entry);
+                entries_.mark(t.entry);
             });
         }
         std::sort(fragments_.begin(), fragments_.end(), [this](const Fragment& a, const Fragment& b) {
@@ -259,18 +245,25 @@ private:
         }
     }
 
-    void number_samples(const Crop& pixels) {
+    void mark_samples(const Crop& pixels) {
         std::uint32_t last = no_entry;
         colors_.for_each_block(pixels, [&](std::size_t block, int, int) {
-            const MaskOf<L> others = !buffer_.shows(block, last);
-            if (any(others)) {
-                for_each_entry(block, others & buffer_.shown(block),
-                               [&](const MaskOf<L>&, std::uint32_t entry) {
-                                   number_of(entry);
-                                   last = entry;
-                               });
+            if (all(buffer_.shows(block, last))) {
+                return;
             }
+            for (std::size_t k = 0; k < N; ++k) {
+                entries_.mark(buffer_.entry(block * N + k));
+            }
+            last = buffer_.entry(block * N);
         });
+    }
+    /// Tells the shader of what is marked.
+    void prepare_shader() {
+        entries_.number_marked([this](std::uint32_t entry) {
+            const std::uint32_t id = entries_.id(entry);
+            return entry < first_line_ ? shader_.add(id) : shader_.add(model_.segments[id].color);
+        });
+        shader_.prepare();
     }
 
     void shade(const Crop& pixels) {
@@ -283,7 +276,7 @@ private:
             }
             LaneGroups<L> groups;
             for_each_entry(block, active, [&](const MaskOf<L>& lanes, std::uint32_t entry) {
-                groups.add(lanes, entries_[entry].number);
+                groups.add(lanes, entries_.number(entry));
             });
             const L column = buffer_.columns() + L(static_cast<R>(x)),
                     row = buffer_.rows() + L(static_cast<R>(y));
@@ -303,7 +296,7 @@ private:
                 const Fragment& fragment = fragments_[i + static_cast<std::size_t>(std::min(k, count - 1))];
                 MaskOf<L> lane(false);
                 set_lane(lane, k, true);
-                groups.add(lane, entries_[fragment.entry].number);
+                groups.add(lane, entries_.number(fragment.entry));
                 set_lane(column, k, static_cast<R>(Buffer::column_of(fragment.sample)));
                 set_lane(row, k, static_cast<R>(Buffer::row_of(fragment.sample)));
                 set_lane(active, k, k < count);
@@ -373,7 +366,7 @@ private:
         MaskOf<L> one(false);
         set_lane(one, 0, true);
         LaneGroups<L> groups;
-        groups.add(one, entries_[entry].number);
+        groups.add(one, entries_.number(entry));
         const auto at =
             shader_.template place<true>(groups, L(static_cast<R>(column)), L(static_cast<R>(row)), one);
         put(to.depth, lane(at.ahead * length(at.dir), 0));
@@ -382,7 +375,7 @@ private:
         put_vector(to.normal, at.normal);
         put(to.uv[0], lane(at.point.uv.x, 0));
         put(to.uv[1], lane(at.point.uv.y, 0));
-        put(to.object, shader_.object_of(entries_[entry].number) + 1);
+        put(to.object, shader_.object_of(entries_.number(entry)) + 1);
         put(to.material, lane(at.material, 0) + 1);
     }
 
@@ -394,7 +387,7 @@ private:
     Shader shader_;
     Buffer buffer_;
     TileColors<L> colors_;
-    std::vector<Entry> entries_;
+    TileEntries entries_;
     std::uint32_t first_line_ = 0; ///< entries from here on are lines
     std::vector<Through> through_;
     std::vector<Fragment> fragments_;
