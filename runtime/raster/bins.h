@@ -71,9 +71,10 @@ template <class R>
 struct Bin {
     std::vector<ScreenTriangle<R>> triangles;
     std::vector<ScreenLine<R>> lines;
-    std::vector<std::vector<SmallTriangle<R>>> small_of;  ///< of each tile
-    std::vector<std::vector<std::uint32_t>> triangles_of; ///< of each tile: the others
-    std::vector<std::vector<std::uint32_t>> lines_of;     ///< of each tile
+    std::vector<std::vector<SmallTriangle<R>>> small_of;   ///< of each tile
+    std::vector<std::vector<NarrowTriangle<R>>> narrow_of; ///< of each tile
+    std::vector<std::vector<std::uint32_t>> triangles_of;  ///< of each tile: the others
+    std::vector<std::vector<std::uint32_t>> lines_of;      ///< of each tile
 
     /// Keeps the memory.
     void clear(const TileGrid& tiles) {
@@ -86,11 +87,14 @@ struct Bin {
             lists.resize(static_cast<std::size_t>(tiles.count()));
         };
         clear_lists(small_of);
+        clear_lists(narrow_of);
         clear_lists(triangles_of);
         clear_lists(lines_of);
     }
-    bool has_nothing_in(std::size_t tile) const {
-        return small_of[tile].empty() && triangles_of[tile].empty() && lines_of[tile].empty();
+    bool has_nothing_in(std::size_t tile) const { return count_in(tile) == 0; }
+    std::size_t count_in(std::size_t tile) const {
+        return small_of[tile].size() + narrow_of[tile].size() + triangles_of[tile].size() +
+               lines_of[tile].size();
     }
     /// `column`, `row`: of its square's first sample, in the picture. Some drawn samples are in the square.
     void add(SmallTriangle<R> t, std::int32_t column, std::int32_t row, const TileGrid& tiles) {
@@ -108,6 +112,15 @@ struct Bin {
                 t.covered = static_cast<std::uint16_t>(inside);
                 small_of[tile].push_back(t);
             }
+        });
+    }
+    /// `column`, `row`: of its box's first sample, in the picture. Some drawn samples are in the box.
+    void add(NarrowTriangle<R> t, std::int32_t column, std::int32_t row, const TileGrid& tiles) {
+        const SampleBox box{column, row, column + t.columns, row + t.rows};
+        tiles.for_each_tile(intersection(box, tiles.box()), [&](std::size_t tile) {
+            t.column = static_cast<std::int16_t>(column - tiles.left_of(static_cast<int>(tile)));
+            t.row = static_cast<std::int16_t>(row - tiles.top_of(static_cast<int>(tile)));
+            narrow_of[tile].push_back(t);
         });
     }
     void add(const ScreenTriangle<R>& t, const SampleBox& box, const TileGrid& tiles) {

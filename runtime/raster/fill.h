@@ -80,8 +80,8 @@ public:
 
     /// Shows the triangle where nothing nearer is, or something equally near for which `earlier(entry, other
     /// entry)` holds.
-    template <class Earlier>
-    void fill(const ScreenTriangle<R>& t, std::uint32_t entry, Earlier&& earlier) {
+    template <class Triangle, class Earlier>
+    void fill(const Triangle& t, std::uint32_t entry, Earlier&& earlier) {
         L* const depths = z_.data();
         Entries* const entries = entry_.data();
         cover(t, [&, depths, entries](std::size_t block, const Mask& covered, const L& z) {
@@ -98,8 +98,8 @@ public:
         });
     }
     /// The same without showing it: f(sample, z) for each sample.
-    template <class Earlier, class F>
-    void visit(const ScreenTriangle<R>& t, std::uint32_t entry, Earlier&& earlier, F&& f) const {
+    template <class Triangle, class Earlier, class F>
+    void visit(const Triangle& t, std::uint32_t entry, Earlier&& earlier, F&& f) const {
         cover(t, [&](std::size_t block, const Mask& covered, const L& z) {
             for (unsigned left = bits(nearer(block, covered, z, entry, earlier)); left != 0;
                  left &= left - 1) {
@@ -194,10 +194,6 @@ private:
         if (box.empty()) {
             return;
         }
-        if (is_narrow(t)) {
-            cover_narrow(t, box, f);
-            return;
-        }
         std::array<Edge, 3> edges;
         bool is_wide = false;
         int count = 0;
@@ -222,32 +218,24 @@ private:
             cover_blocks<std::int32_t>(t, edges, blocks, f);
         }
     }
-    static bool is_narrow(const ScreenTriangle<R>& t) {
-        const auto extent = [](const std::array<std::int32_t, 3>& c) {
-            return std::max(std::max(c[0], c[1]), c[2]) - std::min(std::min(c[0], c[1]), c[2]);
-        };
-        return extent(t.x) <= most_narrow && extent(t.y) <= most_narrow;
-    }
     template <class F>
-    void cover_narrow(const ScreenTriangle<R>& t, const SampleBox& box, F&& f) const {
-        const SampleBox blocks = whole_blocks(box);
-        const std::int32_t left = (left_ + blocks.x0) * grid, top = (top_ + blocks.y0) * grid;
+    void cover(const NarrowTriangle<R>& t, F&& f) const {
+        const SampleBox blocks = whole_blocks(
+            intersection({t.column, t.row, t.column + t.columns, t.row + t.rows}, {0, 0, size, size}));
+        const std::int32_t from_column = blocks.x0 - t.column, from_row = blocks.y0 - t.row;
         Grid start[3];
         std::int32_t step_x[3], step_y[3];
         for (std::size_t i = 0; i < 3; ++i) {
-            const std::size_t k = i == 2 ? 0 : i + 1;
-            const std::int32_t x = t.y[i] - t.y[k], y = t.x[k] - t.x[i];
-            const std::int32_t bias = x > 0 || (x == 0 && y > 0) ? 0 : 1;
-            const std::int32_t at = (y * (top - t.y[i]) + x * (left - t.x[i]) - bias) >> grid_bits;
-            start[i] = at + x * column_ + y * row_;
+            const std::int32_t x = t.edge_x[i], y = t.edge_y[i];
+            start[i] = (t.edge[i] + x * from_column + y * from_row) + x * column_ + y * row_;
             step_x[i] = x * block_width;
             step_y[i] = y * block_height;
         }
-        const L first_column = columns_ + L(static_cast<R>(left_ + blocks.x0 - t.z_column()));
-        const std::int32_t from_row = top_ - t.z_row();
+        const L first_column = columns_ + L(static_cast<R>(from_column));
+        L row = rows_ + L(static_cast<R>(from_row));
         for (std::int32_t y = blocks.y0; y < blocks.y1; y += block_height) {
             Grid e0 = start[0], e1 = start[1], e2 = start[2];
-            const L z_row = L(t.z) + L(t.z_y) * (rows_ + L(static_cast<R>(from_row + y)));
+            const L z_row = L(t.z) + L(t.z_y) * row;
             L column = first_column;
             std::size_t block = block_of(blocks.x0, y);
             for (std::int32_t x = blocks.x0; x < blocks.x1; x += block_width, ++block) {
@@ -258,6 +246,7 @@ private:
                 e1 += step_x[1];
                 e2 += step_x[2];
             }
+            row = row + L(R(block_height));
             start[0] += step_y[0];
             start[1] += step_y[1];
             start[2] += step_y[2];

@@ -53,12 +53,11 @@ public:
             for (const SmallTriangle<R>& t : bin.small_of[index]) {
                 buffer_.fill(t, entries_.add(t.id), earlier);
             }
-            const std::vector<std::uint32_t>& others = bin.triangles_of[index];
-            for (std::size_t i = 0; i < others.size(); ++i) {
-                constexpr std::size_t ahead = 8; // so far, memory is fast enough
-                prefetch_bytes(&bin.triangles[others[std::min(i + ahead, others.size() - 1)]],
-                               sizeof(ScreenTriangle<R>));
-                const ScreenTriangle<R>& t = bin.triangles[others[i]];
+            for (const NarrowTriangle<R>& t : bin.narrow_of[index]) {
+                buffer_.fill(t, entries_.add(t.id), earlier);
+            }
+            for (const std::uint32_t i : bin.triangles_of[index]) {
+                const ScreenTriangle<R>& t = bin.triangles[i];
                 const std::uint32_t entry = entries_.add(t.id);
                 if (S::traits.transmission && (t.id & lets_light_through) != 0) {
                     through_.push_back({&t, entry});
@@ -143,6 +142,9 @@ public:
             for (const SmallTriangle<R>& t : bin.small_of[index]) {
                 visit(t);
             }
+            for (const NarrowTriangle<R>& t : bin.narrow_of[index]) {
+                visit(t);
+            }
             for (const std::uint32_t i : bin.triangles_of[index]) {
                 visit(bin.triangles[i]);
             }
@@ -200,7 +202,7 @@ private:
     void reserve_entries(std::size_t tile) {
         std::size_t count = 0;
         for (const Bin<R>& bin : bins_) {
-            count += bin.small_of[tile].size() + bin.triangles_of[tile].size() + bin.lines_of[tile].size();
+            count += bin.count_in(tile);
         }
         entries_.reserve(count);
     }

@@ -15,7 +15,7 @@ namespace scc::runtime::raster {
 inline constexpr int grid_bits = 8;
 inline constexpr int grid = 1 << grid_bits;
 
-/// On the grid: of triangles that are no wider and no higher, edge functions have 32 bits.
+/// On the grid: triangles that are no wider and no higher are narrow; their edge functions have 32 bits.
 inline constexpr std::int32_t most_narrow = 32 * grid;
 
 /// The number of a triangle in the model, with what is told of it beside.
@@ -66,6 +66,17 @@ struct SmallTriangle {
     std::uint16_t covered;    ///< a bit for each sample that is shown, by rows; all are in the tile
     std::uint32_t id;
     R z, z_x, z_y; ///< z* at the first sample, and its change from sample to sample
+};
+
+/// A narrow triangle with all that filling it in a tile needs, since a setup of many at once is cheaper.
+template <class R>
+struct NarrowTriangle {
+    std::int16_t column, row;   ///< the first sample of its bounding box in the tile; may lie before it
+    std::int16_t columns, rows; ///< samples in the box, which may go beyond the tile
+    std::int32_t edge[3];       ///< edge functions at the first sample: none is negative inside
+    std::int32_t edge_x[3], edge_y[3]; ///< their changes from sample to sample
+    R z, z_x, z_y;                     ///< z* at the first sample, and its change from sample to sample
+    std::uint32_t id;
 };
 
 /// A line as it is drawn: on the same grid, and in the direction in which it runs.

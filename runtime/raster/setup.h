@@ -203,14 +203,17 @@ private:
         if (choice_.cull == Cull::back) {
             among &= ~back;
         }
-        unsigned small = 0;
+        unsigned small = 0, narrow = 0;
         Ints covered{};
+        Edges edges{};
         if (((flags.front | flags.back) & lets_light_through) == 0) {
             constexpr std::int32_t width = SmallTriangle<R>::width;
             const Ints few = (t.x1 - t.x0 < width) & (t.y1 - t.y0 < width) & t.narrow;
             const unsigned candidates = among & grid_bits_of<L>(few);
+            narrow = among & grid_bits_of<L>(t.narrow) & ~candidates;
+            edges = edges_of(t);
             if (candidates != 0) {
-                covered = coverage(t, candidates) & few;
+                covered = coverage(t, edges, candidates) & few;
                 const Ints some = covered != 0;
                 small = candidates & grid_bits_of<L>(some);
                 among = (among & ~candidates) | small;
@@ -219,7 +222,7 @@ private:
         if (among == 0) {
             return;
         }
-        store(p, t, covered, {among, small, back}, flags, number, bin);
+        store(p, t, covered, edges, {among, small, narrow, back}, flags, number, bin);
     }
     /// The lanes in whose bounding boxes there are sample centres that are drawn.
     unsigned may_cover(const OnGrid& t) const {
@@ -254,18 +257,26 @@ private:
         }
         return ~counter;
     }
-    /// Of small triangles, as SmallTriangle has it: the same as TileBuffer finds, for all lanes at once.
-    static Ints coverage(const OnGrid& t, unsigned small) {
-        std::array<Ints, 3> row_start, step_x, step_y;
+    /// Edge functions as NarrowTriangle has them, of narrow lanes.
+    struct Edges {
+        std::array<Ints, 3> at, x, y;
+    };
+    static Edges edges_of(const OnGrid& t) {
+        Edges edges;
         for (std::size_t i = 0; i < 3; ++i) {
             const std::size_t k = i == 2 ? 0 : i + 1;
             const Ints x = t.y[i] - t.y[k], y = t.x[k] - t.x[i];
             const Ints is_top_left = (x > 0) | ((x == 0) & (y > 0)); // -1 where so
-            row_start[i] =
+            edges.at[i] =
                 (y * (t.y0 * grid - t.y[i]) + x * (t.x0 * grid - t.x[i]) - 1 - is_top_left) >> grid_bits;
-            step_x[i] = x;
-            step_y[i] = y;
+            edges.x[i] = x;
+            edges.y[i] = y;
         }
+        return edges;
+    }
+    /// Of small triangles, as SmallTriangle has it: the same as TileBuffer finds, for all lanes at once.
+    static Ints coverage(const OnGrid& t, const Edges& edges, unsigned small) {
+        std::array<Ints, 3> row_start = edges.at;
         const auto [columns, rows] = most_samples(t, small);
         Ints covered{};
         for (std::int32_t row = 0; row < rows; ++row) {
@@ -273,12 +284,12 @@ private:
             for (std::int32_t column = 0; column < columns; ++column) {
                 const Ints inside = (e0 | e1 | e2) >= 0;
                 covered |= inside & (1 << (SmallTriangle<R>::width * row + column));
-                e0 += step_x[0];
-                e1 += step_x[1];
-                e2 += step_x[2];
+                e0 += edges.x[0];
+                e1 += edges.x[1];
+                e2 += edges.x[2];
             }
             for (std::size_t i = 0; i < 3; ++i) {
-                row_start[i] += step_y[i];
+                row_start[i] += edges.y[i];
             }
         }
         return covered;
@@ -301,18 +312,22 @@ private:
         return {columns, rows};
     }
 
-    /// Lanes: those that are stored, the small ones of them, and those seen from behind.
+    /// Lanes: those that are stored, the small and the narrow ones of them, and those seen from behind.
     struct Lanes {
-        unsigned among, small, back;
+        unsigned among, small, narrow, back;
     };
-    void store(const std::array<Corner, 3>& p, const OnGrid& t, const Ints& covered, const Lanes& lanes,
-               const Flags& flags, std::uint32_t number, Bin<R>& bin) const {
-        const Ints x_own = t.x[0] >> grid_bits, y_own = t.y[0] >> grid_bits;
-        const Ints few = covered != 0;
+    void store(const std::array<Corner, 3>& p, const OnGrid& t, const Ints& covered, const Edges& edges,
+               const Lanes& lanes, const Flags& flags, std::uint32_t number, Bin<R>& bin) const {
+        Ints first_x = t.x0, first_y = t.y0;
+        const unsigned others = lanes.among & ~lanes.small & ~lanes.narrow;
+        for (unsigned left = others; left != 0; left &= left - 1) {
+            const int k = __builtin_ctz(left);
+            first_x[k] = t.x[0][k] >> grid_bits;
+            first_y[k] = t.y[0][k] >> grid_bits;
+        }
         const auto center = [](const Ints& v) {
             return L(__builtin_convertvector(v, typename L::Vector)) + L(R(0.5));
         };
-        const Ints first_x = few ? t.x0 : x_own, first_y = few ? t.y0 : y_own;
         detail::DepthPlane<L> depth = detail::depth_plane(p, center(first_x), center(first_y));
         if (choice_.pushes_back) {
             depth.at = depth.at + maximum(absolute(depth.x), absolute(depth.y)) +
@@ -322,31 +337,40 @@ private:
         store_lanes(z, depth.at);
         store_lanes(z_x, depth.x);
         store_lanes(z_y, depth.y);
-        std::int32_t column[N], row[N], bits[N];
-        std::memcpy(column, &first_x, sizeof column);
-        std::memcpy(row, &first_y, sizeof row);
-        std::memcpy(bits, &covered, sizeof bits);
+        const auto set = [&](auto& to, int k) {
+            to.id = id_of(flags, number, lanes.back, k);
+            to.z = z[k];
+            to.z_x = z_x[k];
+            to.z_y = z_y[k];
+        };
         for (unsigned left = lanes.small; left != 0; left &= left - 1) {
             const int k = __builtin_ctz(left);
             SmallTriangle<R> small;
-            small.covered = static_cast<std::uint16_t>(bits[k]);
-            small.id = id_of(flags, number, lanes.back, k);
-            small.z = z[k];
-            small.z_x = z_x[k];
-            small.z_y = z_y[k];
-            bin.add(small, column[k], row[k], tiles_);
+            set(small, k);
+            small.covered = static_cast<std::uint16_t>(covered[k]);
+            bin.add(small, t.x0[k], t.y0[k], tiles_);
         }
-        for (unsigned left = lanes.among & ~lanes.small; left != 0; left &= left - 1) {
+        for (unsigned left = lanes.narrow; left != 0; left &= left - 1) {
+            const int k = __builtin_ctz(left);
+            NarrowTriangle<R> narrow;
+            set(narrow, k);
+            narrow.columns = static_cast<std::int16_t>(t.x1[k] - t.x0[k] + 1);
+            narrow.rows = static_cast<std::int16_t>(t.y1[k] - t.y0[k] + 1);
+            for (std::size_t i = 0; i < 3; ++i) {
+                narrow.edge[i] = edges.at[i][k];
+                narrow.edge_x[i] = edges.x[i][k];
+                narrow.edge_y[i] = edges.y[i][k];
+            }
+            bin.add(narrow, t.x0[k], t.y0[k], tiles_);
+        }
+        for (unsigned left = others; left != 0; left &= left - 1) {
             const int k = __builtin_ctz(left);
             ScreenTriangle<R> large;
+            set(large, k);
             for (std::size_t c = 0; c < 3; ++c) {
                 large.x[c] = t.x[c][k];
                 large.y[c] = t.y[c][k];
             }
-            large.z = z[k];
-            large.z_x = z_x[k];
-            large.z_y = z_y[k];
-            large.id = id_of(flags, number, lanes.back, k);
             const SampleBox box{t.x0[k], t.y0[k], t.x1[k] + 1, t.y1[k] + 1};
             bin.add(large, intersection(box, tiles_.box()), tiles_);
         }
