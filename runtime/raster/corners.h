@@ -21,26 +21,33 @@ struct WorldTriangle {
     std::array<R, 3> weights{1, 1, 1}; ///< 0: the corner is a direction
 };
 
-/// Triangle `i` of those of a surface. `meshes`: the scene's.
+/// Triangle `i` of those of a surface, in the world or, of a placed mesh, in the mesh's own space. `meshes`:
+/// the scene's.
 template <class R, class Meshes>
-WorldTriangle<R> world_triangle(const RasterModel<R>& model, const Meshes& meshes,
-                                const RasterSurface<R>& surface, std::uint32_t i) {
+WorldTriangle<R> stored_triangle(const RasterModel<R>& model, const Meshes& meshes,
+                                 const RasterSurface<R>& surface, std::uint32_t i) {
     WorldTriangle<R> result;
     if (surface.is_mesh) {
         const MeshData& mesh = meshes[surface.mesh];
         const Corners<R> corners = corners_at<R>(mesh, place_of(model.mesh_parts[surface.mesh][i]));
         result.corners = {corners.a, corners.b, corners.c};
-        if (surface.is_placed) {
-            for (Vec3<R>& corner : result.corners) {
-                corner = transform_point(surface.world_from_object, corner);
-            }
-        }
         return result;
     }
     const RasterTriangle& triangle = model.triangles[surface.own + i];
     for (std::size_t k = 0; k < 3; ++k) {
         result.corners[k] = model.positions[triangle.positions[k]];
         result.weights[k] = surface.at_infinity && k != 0 ? R(0) : R(1);
+    }
+    return result;
+}
+template <class R, class Meshes>
+WorldTriangle<R> world_triangle(const RasterModel<R>& model, const Meshes& meshes,
+                                const RasterSurface<R>& surface, std::uint32_t i) {
+    WorldTriangle<R> result = stored_triangle(model, meshes, surface, i);
+    if (surface.is_placed) {
+        for (Vec3<R>& corner : result.corners) {
+            corner = transform_point(surface.world_from_object, corner);
+        }
     }
     return result;
 }
@@ -119,11 +126,11 @@ CornerPacks<L> world_triangles(const RasterModel<RealOf<L>>& model, const Meshes
     return result;
 }
 
-/// Normals at its corners, for shading, or 0 where a mesh has none. Those of a placed mesh are not of unit
-/// length, so that interpolating them is linear as in its own space.
+/// Normals at its corners, for shading, or 0 where a mesh has none; in the world or, of a placed mesh, in the
+/// mesh's own space.
 template <class R, class Meshes>
-std::array<Vec3<R>, 3> world_normals(const RasterModel<R>& model, const Meshes& meshes,
-                                     const RasterSurface<R>& surface, std::uint32_t i) {
+std::array<Vec3<R>, 3> stored_normals(const RasterModel<R>& model, const Meshes& meshes,
+                                      const RasterSurface<R>& surface, std::uint32_t i) {
     std::array<Vec3<R>, 3> normals{};
     if (!surface.is_mesh) {
         const RasterTriangle& triangle = model.triangles[surface.own + i];
@@ -138,9 +145,19 @@ std::array<Vec3<R>, 3> world_normals(const RasterModel<R>& model, const Meshes& 
         const std::uint32_t* index = mesh.normal_indices + std::size_t{3} * triangle_id(mesh, place);
         for (std::size_t k = 0; k < 3; ++k) {
             normals[k] = read_vector<R>(mesh.normals, index[k]);
-            if (surface.is_placed) {
-                normals[k] = transform_normal(surface.object_from_world, normals[k]);
-            }
+        }
+    }
+    return normals;
+}
+/// In the world. Those of a placed mesh are not of unit length, so that interpolating them is linear as in
+/// its own space.
+template <class R, class Meshes>
+std::array<Vec3<R>, 3> world_normals(const RasterModel<R>& model, const Meshes& meshes,
+                                     const RasterSurface<R>& surface, std::uint32_t i) {
+    std::array<Vec3<R>, 3> normals = stored_normals(model, meshes, surface, i);
+    if (surface.is_placed) {
+        for (Vec3<R>& normal : normals) {
+            normal = transform_normal(surface.object_from_world, normal);
         }
     }
     return normals;

@@ -21,7 +21,14 @@ struct LitCorners {
     IndexOf<L> material;
 };
 
-/// Of triangles by their ids (see screen_triangle.h). Not `two_sided`: backs have the front's material.
+/// Triangles with the same value can be looked up together.
+template <class R>
+const RasterSurface<R>* placed_by(const RasterSurface<R>& surface) {
+    return surface.is_placed ? &surface : nullptr;
+}
+
+/// Of triangles by their ids (see screen_triangle.h), with the same placed_by(). Not `two_sided`: backs have
+/// the front's material.
 template <bool two_sided, class L, class Meshes>
 LitCorners<L> lit_corners(
     const RasterModel<RealOf<L>>& model, const Meshes& meshes,
@@ -34,8 +41,8 @@ LitCorners<L> lit_corners(
     for (std::size_t k = 0; k < N; ++k) {
         const RasterSurface<R>& surface = *surfaces[k];
         const std::uint32_t i = (ids[k] & triangle_number) - surface.first;
-        const WorldTriangle<R> t = world_triangle(model, meshes, surface, i);
-        const auto normals = world_normals(model, meshes, surface, i);
+        const WorldTriangle<R> t = stored_triangle(model, meshes, surface, i);
+        const auto normals = stored_normals(model, meshes, surface, i);
         for (std::size_t c = 0; c < 3; ++c) {
             values[4 * c][k] = t.corners[c].x;
             values[4 * c + 1][k] = t.corners[c].y;
@@ -61,6 +68,12 @@ LitCorners<L> lit_corners(
         result.points[c] = vector(4 * c);
         result.weights[c] = number(4 * c + 3);
         result.normals[c] = vector(12 + 3 * c);
+    }
+    if (const RasterSurface<R>* placed = placed_by(*surfaces[0])) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            result.points[c] = transform_point(placed->world_from_object, result.points[c]);
+            result.normals[c] = transform_normal(placed->object_from_world, result.normals[c]);
+        }
     }
     const auto edge = [&](std::size_t c) { return result.points[c] - result.points[0] * result.weights[c]; };
     result.geometric = normalize(cross(edge(1), edge(2))) * number(21);

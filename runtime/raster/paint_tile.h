@@ -276,13 +276,21 @@ private:
                 colors_[block] = background;
                 return;
             }
-            LaneGroups<L> groups;
-            for_each_entry(block, active, [&](const MaskOf<L>& lanes, std::uint32_t entry) {
-                groups.add(lanes, entries_.number(entry));
-            });
             const L column = buffer_.columns() + L(static_cast<R>(x)),
                     row = buffer_.rows() + L(static_cast<R>(y));
-            const Rgb<L> light = shader_.shade(groups, column, row, active).light;
+            const auto for_each_group = [&](auto&& f) {
+                for_each_entry(block, active, [&](const MaskOf<L>& lanes, std::uint32_t entry) {
+                    f(lanes, entries_.number(entry));
+                });
+            };
+            Rgb<L> light;
+            if (shader_.has_vertices_alone()) {
+                light = shader_.interpolate(for_each_group, column, row).light;
+            } else {
+                LaneGroups<L> groups;
+                for_each_group([&](const auto&... group) { groups.add(group...); });
+                light = shader_.shade(groups, column, row, active).light;
+            }
             colors_[block] = all(active) ? light : choose(active, light, background);
         });
     }

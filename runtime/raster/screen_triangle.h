@@ -71,12 +71,12 @@ struct SmallTriangle {
 /// A narrow triangle with all that filling it in a tile needs, since a setup of many at once is cheaper.
 template <class R>
 struct NarrowTriangle {
-    std::int16_t column, row;   ///< the first sample of its bounding box in the tile; may lie before it
-    std::int16_t columns, rows; ///< samples in the box, which may go beyond the tile
-    std::int32_t edge[3];       ///< edge functions at the first sample: none is negative inside
-    std::int32_t edge_x[3], edge_y[3]; ///< their changes from sample to sample
-    R z, z_x, z_y;                     ///< z* at the first sample, and its change from sample to sample
     std::uint32_t id;
+    std::int16_t column, row;  ///< the first sample of its bounding box in the tile; may lie before it
+    std::int8_t columns, rows; ///< samples in the box, which may go beyond the tile
+    std::int16_t edge_x[3], edge_y[3]; ///< edge functions' changes from sample to sample
+    std::int32_t edge[3];              ///< edge functions at the first sample: none is negative inside
+    R z, z_x, z_y;                     ///< z* at the first sample, and its change from sample to sample
 };
 
 /// A line as it is drawn: on the same grid, and in the direction in which it runs.

@@ -47,7 +47,7 @@ public:
         to_prepare_.push_back(static_cast<std::uint32_t>(shown_.size()));
         Shown& shown = shown_.emplace_back();
         shown.id = id;
-        shown.surface = &surface_of_triangle(model_, id & triangle_number);
+        shown.surface = &surface_of(id & triangle_number);
         shown.by_sample = shading_ == RasterShading::phong || shown.surface->at_infinity;
         (shown.by_sample ? has_samples_ : has_vertices_) = true;
         return to_prepare_.back();
@@ -61,21 +61,50 @@ public:
     }
     /// To be called when all are known.
     void prepare() {
-        for (std::size_t i = 0; i < to_prepare_.size(); i += N) {
-            PackOfShown pack;
-            const std::size_t count = std::min<std::size_t>(N, to_prepare_.size() - i);
-            for (std::size_t k = 0; k < pack.size(); ++k) {
-                pack[k] = &shown_[to_prepare_[i + std::min(k, count - 1)]];
+        PackOfShown pack;
+        std::size_t count = 0;
+        for (const std::uint32_t number : to_prepare_) {
+            Shown& shown = shown_[number];
+            if (count == N || (count > 0 && placed_by(*shown.surface) != placed_by(*pack[0]->surface))) {
+                prepare(pack, count);
+                count = 0;
             }
+            pack[count++] = &shown;
+        }
+        if (count > 0) {
             prepare(pack, count);
         }
     }
 
-    /// At samples (column, row) of the tile.
+    /// Nothing is lit at each sample, so that interpolate() does for all.
+    bool has_vertices_alone() const { return !has_samples_; }
+    /// Colours at vertices, or of faces, at samples (column, row) of the tile. for_each_group(f) calls
+    /// f(lanes, number) as LaneGroups has them.
+    template <class ForEachGroup>
+    Seen<L> interpolate(ForEachGroup&& for_each_group, const L& column, const L& row) const {
+        Seen<L> seen{};
+        L sum(1);
+        for_each_group([&](const Mask& lanes, std::uint32_t number) {
+            const auto& numbers = shown_[number].numbers;
+            const auto put = [&](std::size_t at, L& to) {
+                const L value = L(numbers[at]) + L(numbers[at + 1]) * column + L(numbers[at + 2]) * row;
+                to = choose(lanes, value, to);
+            };
+            const auto put_color = [&](std::size_t at, Rgb<L>& to) {
+                put(at, to.r);
+                put(at + 3, to.g);
+                put(at + 6, to.b);
+            };
+            put(weight_sum, sum);
+            put_color(first_color, seen.light);
+            if constexpr (S::traits.transmission) {
+                put_color(first_transmit, seen.transmit);
+            }
+        });
+        const L scale = L(1) / sum;
+        return {seen.light * scale, seen.transmit * scale};
+    }
     Seen<L> shade(const Groups& groups, const L& column, const L& row, const Mask& active) const {
-        if (!has_samples_) {
-            return interpolate(groups, column, row);
-        }
         if (!has_vertices_) {
             return shade_samples(groups, column, row, active);
         }
@@ -88,7 +117,13 @@ public:
             }
         }
         by_sample = by_sample & active;
-        const Seen<L> seen = interpolate(groups, column, row);
+        const Seen<L> seen = interpolate(
+            [&](auto&& f) {
+                for (const auto& group : groups) {
+                    f(group.lanes, group.number);
+                }
+            },
+            column, row);
         return none(by_sample) ? seen : choose(by_sample, shade_samples(lit, column, row, by_sample), seen);
     }
 
@@ -173,33 +208,6 @@ private:
         return groups.template gather<L>(of);
     }
 
-    /// Colours at vertices, or of faces.
-    Seen<L> interpolate(const Groups& groups, const L& column, const L& row) const {
-        Seen<L> seen{};
-        L sum(1);
-        bool first = true;
-        for (const auto& group : groups) {
-            const auto& numbers = shown_[group.number].numbers;
-            const auto put = [&](std::size_t at, L& to) {
-                const L value = L(numbers[at]) + L(numbers[at + 1]) * column + L(numbers[at + 2]) * row;
-                to = first ? value : choose(group.lanes, value, to);
-            };
-            const auto put_color = [&](std::size_t at, Rgb<L>& to) {
-                put(at, to.r);
-                put(at + 3, to.g);
-                put(at + 6, to.b);
-            };
-            put(weight_sum, sum);
-            put_color(first_color, seen.light);
-            if constexpr (S::traits.transmission) {
-                put_color(first_transmit, seen.transmit);
-            }
-            first = false;
-        }
-        const L scale = L(1) / sum;
-        return {seen.light * scale, seen.transmit * scale};
-    }
-
     Seen<L> shade_samples(const Groups& groups, const L& column, const L& row, const Mask& active) const {
         const Place at = place<false>(groups, column, row, active);
         return lighting_.light(at.point, at.normal, at.dir, at.material, active);
@@ -216,10 +224,19 @@ private:
         return hit;
     }
 
+    /// Most often that of the triangle before.
+    const RasterSurface<R>& surface_of(std::uint32_t triangle) {
+        if (last_surface_ == nullptr || triangle - last_surface_->first >= last_surface_->count) {
+            last_surface_ = &surface_of_triangle(model_, triangle);
+        }
+        return *last_surface_;
+    }
+
     using PackOfShown = std::array<Shown*, static_cast<std::size_t>(N)>;
 
-    /// The first `count` of these triangles.
-    void prepare(const PackOfShown& pack, std::size_t count) {
+    /// The first `count` of these triangles, which have the same placed_by(); the others' lanes are made up.
+    void prepare(PackOfShown& pack, std::size_t count) {
+        std::fill(pack.begin() + static_cast<std::ptrdiff_t>(count), pack.end(), pack[count - 1]);
         const LitCorners<L> corners = corners_of(pack);
         std::array<EyePoint<L>, 3> eye;
         std::array<ClipPoint<L>, 3> clip;
@@ -361,6 +378,7 @@ private:
     PointLighting<S, L> lighting_;
     std::vector<Shown> shown_;
     std::vector<std::uint32_t> to_prepare_;
+    const RasterSurface<R>* last_surface_ = nullptr;
     bool has_samples_ = false;  ///< something shown is lit at each sample
     bool has_vertices_ = false; ///< something shown is not
     int left_ = 0, top_ = 0;
