@@ -223,7 +223,9 @@ Crossing<L> cross_implicit(const Implicit<R>& shape, const Ray<L>& ray, const Fi
 
     for (int i = 0; i < most_steps && any(s.searching); ++i) {
         detail::advance(s, along, end, finest);
-        s.searching = s.searching & (s.front < end) & (s.front <= ray.t_max);
+        // A zero may lie anywhere in an open stretch.
+        const L nearest = choose(s.is_open(), s.stretch, s.front);
+        s.searching = s.searching & (s.front < end) & (nearest <= ray.t_max);
     }
     s.undecided = s.undecided | s.searching;
     const MaskOf<L> leaving = (s.sign < 0) & (s.front >= end) & !(s.searching | s.found | capped);

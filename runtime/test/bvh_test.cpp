@@ -190,17 +190,6 @@ Ray<R> some_ray(Random<R>& random) {
     return ray;
 }
 
-std::vector<TrianglePlace> places_of(const MeshStorage& mesh) {
-    std::vector<TrianglePlace> places;
-    for (const BvhNode& node : mesh.nodes) {
-        for (const std::uint32_t child : node.child) {
-            for (std::uint32_t i = 0; is_leaf(child) && i < leaf_of(child).count; ++i) {
-                places.push_back({leaf_of(child).first, leaf_of(child).count, i});
-            }
-        }
-    }
-    return places;
-}
 template <class R>
 TrianglePlace some_place(const MeshStorage& mesh, Random<R>& random) {
     const std::vector<TrianglePlace> places = places_of(mesh);
@@ -232,7 +221,7 @@ TYPED_TEST(Hierarchy, FindsWhatATestOfEveryShapeFinds) {
     prepare(scene);
     ASSERT_FALSE(scene.accelerator.nodes.empty());
     int hits = 0;
-    for (int i = 0; i < 20000; ++i) {
+    for (int i = 0; i < property_count(20000); ++i) {
         const Ray<R> ray = some_ray(random);
         const Hit<R> got = closest_hit(scene, ray), expected = closest_hit(plain, ray);
         ASSERT_EQ(got.shape.t, expected.shape.t);

@@ -71,7 +71,7 @@ TYPED_TEST(SolidScene, FirstHitIsWhereTheSolidBegins) {
     Random<R> random(11);
     const long double blur = std::is_same_v<R, float> ? 3e-4L : 1e-8L;
     int hits = 0, rays = 0, wrong = 0;
-    for (int i = 0; i < 100; ++i) {
+    for (int i = 0; i < property_count(100); ++i) {
         const Solid<R> solid(random, 3);
         for (int k = 0; k < 40; ++k) {
             const Ray<R> ray = ray_at(solid, random);
@@ -128,7 +128,7 @@ TYPED_TEST(SolidScene, RaysThatLeaveASurfaceDoNotMeetItAgain) {
     Random<R> random(13);
     const long double blur = std::is_same_v<R, float> ? 3e-4L : 1e-8L;
     int spawned = 0, wrong = 0;
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < property_count(300); ++i) {
         const Solid<R> solid(random, 3);
         for (int k = 0; k < 20; ++k) {
             const Ray<R> ray = ray_at(solid, random);

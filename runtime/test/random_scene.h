@@ -2,11 +2,20 @@
 
 #include "runtime/test/tracing.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <random>
 
 namespace scc::runtime::test {
+
+/// How many of its rays a property test casts: so many times `count` as the environment's SCC_PROPERTY_SCALE
+/// says, 250 for 10^6 rays and more in each.
+inline int property_count(int count) {
+    const char* const scale = std::getenv("SCC_PROPERTY_SCALE");
+    return count * (scale != nullptr ? std::max(std::atoi(scale), 1) : 1);
+}
 
 /// Random numbers, shapes and maps. The seed is fixed, so every run is the same.
 template <class R>
@@ -168,6 +177,18 @@ inline MeshStorage ball_mesh(int level, double radius, const Vec3<double>& cente
         normals.insert(normals.end(), {float(n.x), float(n.y), float(n.z)});
     }
     return build_mesh(positions, indices, std::move(normals), indices);
+}
+
+inline std::vector<TrianglePlace> places_of(const MeshStorage& mesh) {
+    std::vector<TrianglePlace> places;
+    for (const BvhNode& node : mesh.nodes) {
+        for (const std::uint32_t child : node.child) {
+            for (std::uint32_t i = 0; is_leaf(child) && i < leaf_of(child).count; ++i) {
+                places.push_back({leaf_of(child).first, leaf_of(child).count, i});
+            }
+        }
+    }
+    return places;
 }
 
 /// A random shape, bare or placed, alone in a scene.

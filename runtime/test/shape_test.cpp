@@ -1,4 +1,5 @@
 #include "runtime/raycast.h"
+#include "runtime/test/contains.h"
 #include "runtime/test/random_scene.h"
 #include "runtime/test/signed_distance.h"
 
@@ -37,13 +38,11 @@ public:
     using Real = typename RealOfShape<Shape>::type;
     static constexpr double eps = static_cast<double>(std::numeric_limits<Real>::epsilon());
 
-    /// f(single, random) for bare and placed shapes, near the origin and farther off. So many times `count`
-    /// as SCC_PROPERTY_SCALE says, 125 for 10^6 rays in each test.
+    /// f(single, random) for bare and placed shapes, near the origin and farther off.
     template <class F>
     static void for_scenes(int count, F&& f) {
         Random<Real> random(7);
-        const char* const scale = std::getenv("SCC_PROPERTY_SCALE");
-        count *= scale != nullptr ? std::max(std::atoi(scale), 1) : 1;
+        count = property_count(count);
         for (const double distance : {2.0, 300.0}) {
             for (int i = 0; i < count; ++i) {
                 f(SingleShape<Shape, Real>(random, i % 2 == 1, distance), random);
@@ -65,7 +64,7 @@ public:
                 }
             }
         });
-        EXPECT_GT(hits, count * 4);
+        EXPECT_GT(hits, property_count(count) * 4);
     }
 
     /// Whether no ray that starts on the surface, on the side that `dir` goes to, can meet the shape again.
@@ -94,18 +93,61 @@ public:
                 s.constant};
     }
 
-    /// Whether a ray that should start inside starts outside, since a cone is thinner at its tip or at a
-    /// sharp rim than the bound by which rays start off its surface.
-    static bool is_beyond_a_thin_rim(const SingleShape<Shape, Real>& single, const Vec3<Real>& org) {
-        if constexpr (requires { single.shape.radius_to; }) {
-            const auto wide = [](const Vec3<Real>& v) { return lanes<long double>(v); };
-            const Affine<long double> map = affine_cast<long double>(single.world_from_object);
-            const Wide from = wide(single.shape.from), axis = wide(single.shape.to) - from;
-            const Wide p = transform_point(inverse(map), wide(org)) - from;
-            const long double along = dot(p, axis) / dot(axis, axis);
-            const long double radius = (1 - along) * static_cast<long double>(single.shape.radius_from) +
-                                       along * static_cast<long double>(single.shape.radius_to);
-            return along <= 0 || along >= 1 || length(p - along * axis) >= radius;
+    /// Whether a ray that starts inside of the side that it left is outside of another, since the shape is
+    /// thinner there than the bound by which rays start off its surface.
+    static bool is_beyond_a_thin_part(const SingleShape<Shape, Real>& single,
+                                      const typename SingleShape<Shape, Real>::Place& at,
+                                      const Vec3<Real>& org) {
+        const Affine<long double> back = inverse(affine_cast<long double>(single.world_from_object));
+        const Wide p = transform_point(back, lanes<long double>(org)),
+                   slack = transform_magnitude(back, lanes<long double>(at.surface.error)) * 0.5L;
+        for (const Wide& shift : {Wide{slack.x, 0, 0}, Wide{0, slack.y, 0}, Wide{0, 0, slack.z}}) {
+            if (!is_in(single, p - shift) || !is_in(single, p + shift)) {
+                return true;
+            }
+        }
+        return false;
+    }
+    static bool is_in(const SingleShape<Shape, Real>& single, const Wide& p) {
+        if constexpr (is_mesh<Shape>) { // a convex one
+            const MeshData mesh = single.mesh.data();
+            for (const TrianglePlace& place : places_of(single.mesh)) {
+                const auto corners = corners_at<float>(mesh, place);
+                const Wide a = lanes<long double>(corners.a);
+                if (dot(cross(lanes<long double>(corners.b) - a, lanes<long double>(corners.c) - a), p - a) >
+                    0) {
+                    return false;
+                }
+            }
+            return true;
+        } else if constexpr (is_implicit<Shape>) { // see add_field
+            const Wide from_center = p - lanes<long double>(single.shape.within.first);
+            return dot(from_center, from_center) <
+                   static_cast<long double>(single.shape.within.radius * single.shape.within.radius *
+                                            Real(0.75));
+        } else if constexpr (requires { contains(single.shape, p); }) {
+            return contains(single.shape, p);
+        } else {
+            return false; // has no inside
+        }
+    }
+
+    /// Whether a ray that starts off the surface by the bound and more all but touches it at the hit: what
+    /// rounding cannot tell from touching it.
+    static bool all_but_touches(const SingleShape<Shape, Real>& single, const Ray<Real>& ray,
+                                const Hit<Real>& hit) {
+        if constexpr (requires(Wide p) { signed_distance(single.shape, p, p); }) {
+            const auto at = single.surface(ray, hit);
+            const Affine<long double> map = affine_cast<long double>(single.world_from_object),
+                                      back = inverse(map);
+            const Wide n = normalize(transform_normal(map, lanes<long double>(at.surface.normal)));
+            const auto distance = [&](long double t) {
+                const Wide p = lanes<long double>(ray.org) + lanes<long double>(ray.dir) * t;
+                return std::abs(signed_distance(single.shape, transform_point(back, p), n));
+            };
+            const long double bound =
+                dot(absolute(n), transform_magnitude(back, lanes<long double>(at.surface.error)));
+            return distance(0) >= bound / 2 && distance(hit.shape.t) <= bound / 4;
         } else {
             return false;
         }
@@ -150,7 +192,7 @@ TYPED_TEST(BoundedShape, HitIsInsideTheBounds) {
 }
 
 TYPED_TEST(ShapeWithFormula, HitIsOnTheSurfaceWithinTheStatedBound) {
-    this->for_hits(400, [&](const auto& single, auto&, const auto&, const auto&, const auto& at) {
+    this->for_hits(200, [&](const auto& single, auto&, const auto&, const auto&, const auto& at) {
         const Affine<long double> map = affine_cast<long double>(single.world_from_object);
         const Affine<long double> back = inverse(map);
         const Wide p = transform_point(back, lanes<long double>(at.surface.point));
@@ -160,18 +202,30 @@ TYPED_TEST(ShapeWithFormula, HitIsOnTheSurfaceWithinTheStatedBound) {
     });
 }
 
+/// Within the bound of the point: near a cone's tip or on a thin tube, that is not the gradient at the point.
 TYPED_TEST(ShapeWithFormula, NormalIsTheNormalisedGradient) {
-    this->for_hits(100, [&](const auto& single, auto&, const auto&, const auto&, const auto& at) {
+    this->for_hits(200, [&](const auto& single, auto&, const auto&, const auto&, const auto& at) {
+        const Affine<long double> map = affine_cast<long double>(single.world_from_object);
         const Wide p = lanes<long double>(at.object_point);
-        const Wide unit = normalize(transform_normal(affine_cast<long double>(single.world_from_object),
-                                                     lanes<long double>(at.surface.normal)));
-        const long double h = 1e-6L;
-        const auto slope = [&](const Wide& d) {
-            return (signed_distance(single.shape, p + d, unit) - signed_distance(single.shape, p - d, unit)) /
-                   (2 * h);
+        const Wide unit = normalize(transform_normal(map, lanes<long double>(at.surface.normal)));
+        const auto gradient = [&](const Wide& q) {
+            const long double h = 1e-7L;
+            const auto slope = [&](const Wide& d) {
+                return (signed_distance(single.shape, q + d, unit) -
+                        signed_distance(single.shape, q - d, unit)) /
+                       (2 * h);
+            };
+            return Wide{slope({h, 0, 0}), slope({0, h, 0}), slope({0, 0, h})};
         };
-        const Wide gradient{slope({h, 0, 0}), slope({0, h, 0}), slope({0, 0, h})};
-        EXPECT_NEAR(static_cast<double>(length(gradient - unit)), 0, 1e-6 + 3000 * this->eps);
+        const Wide here = gradient(p),
+                   bound = transform_magnitude(inverse(map), lanes<long double>(at.surface.error));
+        long double change = 0; // of the gradient, from the point to others within the bound
+        for (const Wide& d : {Wide{bound.x, 0, 0}, Wide{0, bound.y, 0}, Wide{0, 0, bound.z}}) {
+            change += length(gradient(p + d) - here);
+        }
+        // The differences lose digits where a plane is met far off.
+        const long double lost = 1e-9L * (8 + length(p));
+        EXPECT_LE(length(here - unit), lost + 32 * static_cast<long double>(this->eps) + change);
         EXPECT_NEAR(static_cast<double>(length(at.surface.normal)), 1, 4 * this->eps);
     });
 }
@@ -179,7 +233,7 @@ TYPED_TEST(ShapeWithFormula, NormalIsTheNormalisedGradient) {
 TYPED_TEST(EveryShape, AnyHitExistsExactlyWhereAClosestHitDoes) {
     using R = typename RealOfShape<TypeParam>::type;
     int met = 0, missed = 0;
-    this->for_scenes(100, [&](const auto& single, Random<R>& random) {
+    this->for_scenes(200, [&](const auto& single, Random<R>& random) {
         for (int i = 0; i < 20; ++i) {
             Ray<R> ray = single.ray_towards(random);
             const Hit<R> hit = closest_hit(single.scene, ray);
@@ -188,7 +242,7 @@ TYPED_TEST(EveryShape, AnyHitExistsExactlyWhereAClosestHitDoes) {
             if (is_hit(hit)) {
                 ray.t_max = hit.shape.t;
                 EXPECT_TRUE(any_hit(single.scene, ray));
-                ray.t_max = std::nextafter(hit.shape.t, R(0));
+                ray.t_max = std::nextafter(hit.shape.t, R(-1));
                 EXPECT_FALSE(any_hit(single.scene, ray));
             }
         }
@@ -209,7 +263,7 @@ Vec3<R> leaving(const Vec3<R>& normal, R slope, Random<R>& random) {
 TYPED_TEST(EveryShape, RayLeavingTheSurfaceDoesNotMeetItAgain) {
     using R = typename RealOfShape<TypeParam>::type;
     int checked = 0;
-    this->for_hits(150, [&](const auto& single, Random<R>& random, const auto&, const auto&, const auto& at) {
+    this->for_hits(200, [&](const auto& single, Random<R>& random, const auto&, const auto&, const auto& at) {
         for (const double slope : {3.0, 0.1, 1e-3, 1e-5, 1e-7, 1e-10, 1e-14, 0.0}) {
             for (const int side : {1, -1}) {
                 const Vec3<R> dir = leaving<R>(at.surface.normal * R(side), R(slope), random);
@@ -220,8 +274,10 @@ TYPED_TEST(EveryShape, RayLeavingTheSurfaceDoesNotMeetItAgain) {
                     this->is_left_for_good(single, at, dir)) {
                     ++checked;
                     const Ray<R> ray{start_off(at.surface, dir), dir, spawned_t_min<R>(), infinity<R>()};
-                    EXPECT_FALSE(any_hit(single.scene, ray))
-                        << "slope " << slope << ", t " << closest_hit(single.scene, ray).shape.t;
+                    const Hit<R> again = closest_hit(single.scene, ray);
+                    EXPECT_EQ(any_hit(single.scene, ray), is_hit(again));
+                    EXPECT_TRUE(!is_hit(again) || this->all_but_touches(single, ray, again))
+                        << "slope " << slope << ", t " << again.shape.t;
                 }
             }
         }
@@ -233,7 +289,7 @@ TYPED_TEST(EveryShape, RayLeavingTheSurfaceDoesNotMeetItAgain) {
 
 TYPED_TEST(EveryShape, RayGoingInsideMeetsTheFarSideOnly) {
     using R = typename RealOfShape<TypeParam>::type;
-    this->for_hits(100, [&](const auto& single, Random<R>& random, const auto&, const auto&, const auto& at) {
+    this->for_hits(200, [&](const auto& single, Random<R>& random, const auto&, const auto&, const auto& at) {
         if constexpr (requires { single.shape.caps; }) {
             if (!single.shape.caps) {
                 return;
@@ -244,7 +300,7 @@ TYPED_TEST(EveryShape, RayGoingInsideMeetsTheFarSideOnly) {
             return; // has no inside
         }
         const Ray<R> ray{start_off(at.surface, dir), dir, spawned_t_min<R>(), infinity<R>()};
-        if (this->is_beyond_a_thin_rim(single, ray.org)) {
+        if (this->is_beyond_a_thin_part(single, at, ray.org)) {
             return;
         }
         const Hit<R> hit = closest_hit(single.scene, ray);
@@ -253,14 +309,16 @@ TYPED_TEST(EveryShape, RayGoingInsideMeetsTheFarSideOnly) {
         EXPECT_GT(dot(far.surface.normal, dir), 0) << "leaves there";
         const Ray<R> outside{start_off(far.surface, dir), dir, spawned_t_min<R>(), infinity<R>()};
         if (this->is_left_for_good(single, far, dir)) {
-            EXPECT_FALSE(any_hit(single.scene, outside));
+            const Hit<R> again = closest_hit(single.scene, outside);
+            EXPECT_TRUE(!is_hit(again) || this->all_but_touches(single, outside, again));
         }
     });
 }
 
 TYPED_TEST(EveryShape, MovingRayAndObjectTogetherKeepsTheDistance) {
     using R = typename RealOfShape<TypeParam>::type;
-    this->for_scenes(100, [&](const auto& single, Random<R>& random) {
+    int rays = 0, others = 0;
+    this->for_scenes(200, [&](const auto& single, Random<R>& random) {
         const Affine<long double> map = affine_cast<long double>(random.map(3));
         const Affine<long double> old = affine_cast<long double>(single.world_from_object);
         DynamicScene<R> moved;
@@ -268,19 +326,25 @@ TYPED_TEST(EveryShape, MovingRayAndObjectTogetherKeepsTheDistance) {
         moved.functions = single.scene.functions;
         moved.add(Placed<TypeParam, R>{
             single.shape, affine_cast<R>(compose(map, old)), affine_cast<R>(inverse(compose(map, old))), {}});
-        for (int i = 0; i < 10; ++i) {
+        for (int i = 0; i < 20; ++i) {
             const Ray<R> ray = single.ray_towards(random);
             const Hit<R> hit = closest_hit(single.scene, ray);
             const Hit<R> other = closest_hit(moved, transform_ray(affine_cast<R>(map), ray));
-            if (is_hit(hit) && is_hit(other)) {
+            ++rays;
+            if (is_hit(hit) != is_hit(other)) {
+                ++others;
+            } else if (is_hit(hit)) {
                 const auto at = single.surface(ray, hit);
-                const R slope = dot(at.surface.normal, ray.dir) / length(ray.dir);
-                if (slope < R(-0.1) || slope > R(0.1)) {
-                    EXPECT_NEAR(static_cast<double>(hit.shape.t / other.shape.t), 1, 2e5 * this->eps);
-                }
+                const double slope = std::abs(static_cast<double>(dot(at.surface.normal, ray.dir)));
+                const double far = static_cast<double>(length(ray.org) + length(at.surface.point));
+                others += std::abs(static_cast<double>(hit.shape.t - other.shape.t)) * slope >
+                          2000 * this->eps * far;
             }
         }
     });
+    // Rays within rounding of an outline meet either what has it or what is behind.
+    const int most = std::is_same_v<R, float> ? 4 + rays / 2000 : 1 + rays / 200000;
+    EXPECT_LE(others, most) << "of " << rays;
 }
 
 TEST(Sphere, RayFromInsideHitsFarSide) {
