@@ -3,6 +3,7 @@
 #include "compiler/file_importer.h"
 #include "compiler/lower.h"
 #include "compiler/passes/passes.h"
+#include "compiler/place_scene.h"
 #include "compiler/scene_checks.h"
 #include "compiler/schema.h"
 #include "lang/parser.h"
@@ -186,7 +187,13 @@ Loaded load(const SceneOptions& options, Stage last) {
             lower_the_rest(loaded, lowering);
         } else {
             loaded.scene = lower(loaded.module, lowering, loaded.diagnostics);
-            check_scene(loaded.module, loaded.scene, loaded.diagnostics);
+            std::optional<ir::Scene> as_drawn; // which the checks are about
+            if (last == Stage::lowered) {
+                as_drawn = loaded.scene;
+            }
+            ir::Scene& drawn = as_drawn ? *as_drawn : loaded.scene;
+            recenter(drawn);
+            check_scene(loaded.module, drawn, loaded.diagnostics);
         }
     });
     if (last > Stage::lowered && !loaded.diagnostics.has_errors()) {

@@ -45,7 +45,7 @@ struct Loaded {
     FoundFiles assets = std::make_shared<std::set<std::filesystem::path>>();
 };
 
-/// `lowered`: a scene that the passes have not run over.
+/// `lowered`: a scene as its author placed it, that the passes have not run over.
 enum class Stage { tokens, tree, module, lowered, scene };
 
 /// A file that the command line names. Throws host::FileError.

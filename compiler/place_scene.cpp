@@ -1,5 +1,6 @@
 #include "compiler/place_scene.h"
 
+#include "compiler/extent.h"
 #include "compiler/ir/objects.h"
 
 #include <fmt/core.h>
@@ -12,6 +13,10 @@ namespace {
 
 using runtime::Affine;
 using runtime::Vec3;
+
+/// In sizes of the scene: nearer to the origin, coordinates lose so few digits that they are left as the
+/// author wrote them.
+constexpr double far_from_origin = 64;
 
 class Placing {
 public:
@@ -88,6 +93,17 @@ std::optional<std::string> tied_to_place(const ir::Scene& scene) {
         }
     }
     return std::nullopt;
+}
+
+void recenter(ir::Scene& scene) {
+    const Extent extent = extent_of(scene);
+    if (!extent.is_usable() || extent.has_planes_alone ||
+        !(length(extent.center) > far_from_origin * extent.size) || tied_to_place(scene)) {
+        return;
+    }
+    const Vec3<double> origin = extent.round_center();
+    place_scene(scene, 1, -origin);
+    scene.settings.origin = {origin.x, origin.y, origin.z};
 }
 
 } // namespace scc::compiler

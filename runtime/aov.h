@@ -38,6 +38,7 @@ struct AovImage {
     std::array<std::vector<float>, 3> position, normal;
     std::array<std::vector<float>, 2> uv;
     std::vector<std::uint32_t> object, material;
+    std::array<double, 3> origin{}; ///< added to positions, see RenderSettings::origin
 
     AovImage() = default;
     AovImage(int w, int h, AovSet set) : width(w), height(h) {

@@ -35,13 +35,18 @@ void store_aovs(const S& scene, const Ray<typename S::Real>& ray, AovImage& to, 
     }
     store_at(to.depth, i, hit.shape.t * length(ray.dir));
     store_at(to.planar, i, hit.shape.t * -dot(ray.dir, scene.camera.n));
-    const auto store_vector = [&](std::array<std::vector<float>, 3>& lists, const Vec3<R>& v) {
-        store_at(lists[0], i, v.x);
-        store_at(lists[1], i, v.y);
-        store_at(lists[2], i, v.z);
+    const auto store_vector = [&](std::array<std::vector<float>, 3>& lists, const Vec3<R>& v,
+                                  const std::array<double, 3>& origin) {
+        store_at(lists[0], i, static_cast<double>(v.x) + origin[0]);
+        store_at(lists[1], i, static_cast<double>(v.y) + origin[1]);
+        store_at(lists[2], i, static_cast<double>(v.z) + origin[2]);
     };
-    store_vector(to.position, at.surface.point);
-    store_vector(to.normal, at.normal);
+    if (met) {
+        store_vector(to.position, at.surface.point, to.origin);
+    } else {
+        store_vector(to.position, {}, {});
+    }
+    store_vector(to.normal, at.normal, {});
     store_at(to.uv[0], i, at.point.uv.x);
     store_at(to.uv[1], i, at.point.uv.y);
     store_at(to.object, i, met ? at.body + 1 : 0);

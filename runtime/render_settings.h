@@ -83,6 +83,8 @@ struct RenderSettings {
     double adaptive = 0;
     Method method = Method::ray;
     RasterSettings raster;
+    /// Where the origin of the scene's coordinates is in the world: not at 0 for what stands far from it.
+    std::array<double, 3> origin{};
 };
 
 inline constexpr int most_samples = 4096;

@@ -42,6 +42,10 @@ private:
         const runtime::RenderSettings& settings = scene_.settings;
         out_.line("NAME = {}", python(scene_.name.empty() ? "scene" : scene_.name));
         out_.line("SIZE = ({}, {})", settings.width, settings.height);
+        if (const auto& o = settings.origin; o != decltype(settings.origin){}) {
+            out_.line("# The scene stands far from the world's origin: its coordinates count from {}.",
+                      python(runtime::Vec3<double>{o[0], o[1], o[2]}));
+        }
         if (has("through")) {
             write_paths();
         }

@@ -169,11 +169,16 @@ std::string literal(const runtime::RenderSettings& s) {
         "{{{}, {}, {}, {}, {}, PixelPoint::{}, Sampler::{}, PixelFilter::{}, {}", s.width, s.height,
         s.samples, s.depth, literal(s.shadows), word(runtime::pixel_point_names, s.point),
         word(runtime::sampler_names, s.sampler), word(runtime::filter_names, s.filter), literal(s.adaptive));
-    if (s.method == runtime::Method::raster) {
-        text += fmt::format(", Method::raster, {{RasterShading::{}, Cull::{}, {}, {}}}",
-                            word(runtime::raster_shading_names, s.raster.shading),
-                            word(runtime::cull_names, s.raster.cull), literal(s.raster.clip),
-                            literal(s.raster.tessellation));
+    const bool is_moved = s.origin != decltype(s.origin){};
+    if (s.method == runtime::Method::raster || is_moved) {
+        text += fmt::format(
+            ", Method::{}, {{RasterShading::{}, Cull::{}, {}, {}}}", word(runtime::method_names, s.method),
+            word(runtime::raster_shading_names, s.raster.shading), word(runtime::cull_names, s.raster.cull),
+            literal(s.raster.clip), literal(s.raster.tessellation));
+    }
+    if (is_moved) {
+        text +=
+            fmt::format(", {{{}, {}, {}}}", literal(s.origin[0]), literal(s.origin[1]), literal(s.origin[2]));
     }
     return text + "}";
 }

@@ -137,11 +137,14 @@ private:
     }
 
     void emit_frame_comment(Writer& file) {
-        if (frame_.is_world()) {
+        const auto& moved = scene_.settings.origin;
+        const runtime::Vec3<double> origin =
+            frame_.origin + runtime::Vec3<double>{moved[0], moved[1], moved[2]};
+        if (frame_.scale == 1 && origin == runtime::Vec3<double>{}) {
             return;
         }
         const std::string how =
-            fmt::format("written as {} (p - {})", number(frame_.scale), pov_vector(frame_.origin));
+            fmt::format("written as {} (p - {})", number(frame_.scale), pov_vector(origin));
         file.line("// POV-Ray's tolerances are absolute lengths: world point p is {} here.", how);
         note(Fidelity::exact, "world", "world", {},
              fmt::format("POV-Ray's tolerances are absolute lengths: world point p is {}", how));

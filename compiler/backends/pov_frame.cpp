@@ -2,6 +2,7 @@
 
 #include "compiler/backends/pov_text.h"
 #include "compiler/bounds.h"
+#include "compiler/extent.h"
 #include "compiler/ir/objects.h"
 
 #include <fmt/core.h>
@@ -18,65 +19,12 @@ using runtime::Vec3;
 
 namespace {
 
-double nearest_power_of_two(double x) {
-    return std::exp2(std::round(std::log2(x)));
-}
-
-double size_of(const Bounds<double>& bounds) {
-    return bounds.min.x <= bounds.max.x ? length(bounds.max - bounds.min) : 0;
-}
-
 double magnification(const Affine<double>& a) {
     double largest = 0;
     for (int column = 0; column < 3; ++column) {
         largest = std::max(largest, length(Vec3<double>{a.m[0][column], a.m[1][column], a.m[2][column]}));
     }
     return largest;
-}
-
-/// The distance of a point from a plane that was moved.
-double plane_distance(const runtime::Plane<double>& plane, const Affine<double>& world_from_object,
-                      const Vec3<double>& p) {
-    const Affine<double> object_from_world = inverse(world_from_object);
-    const Vec3<double> n = normalize(plane.normal);
-    return std::abs(dot(n, transform_point(object_from_world, p)) - plane.offset) /
-           length(transform_normal(object_from_world, n));
-}
-
-/// So many times as large as all that is smaller, and the eye: one stands on it as on a plane.
-constexpr double giant = 1e4;
-
-/// The stretch that matters: around the eye, all bounded objects but giants and the origins of other
-/// unbounded ones, else down to the farthest plane.
-double extent_of(const ir::Scene& scene, Bounds<double>& around) {
-    double planes = 0;
-    std::map<int, Bounds<double>> by_size; // of objects, by the power of two
-    around.add(scene.camera.eye);
-    ir::for_each_shape(
-        scene, [&]<class Shape>(const Shape& shape, const Affine<double>& place, const runtime::Sides&) {
-            if constexpr (std::is_same_v<Shape, runtime::Plane<double>>) {
-                planes = std::max(planes, plane_distance(shape, place, scene.camera.eye));
-            } else if (const auto bounds = object_bounds(shape, scene)) {
-                const Bounds<double> box = transform_bounds(place, *bounds);
-                by_size[std::ilogb(size_of(box))].add(box);
-            } else {
-                around.add(translation_of(place));
-            }
-        });
-    for (const auto& [power, boxes] : by_size) {
-        if (size_of(around) > 0 && std::exp2(power) > giant * size_of(around)) {
-            break;
-        }
-        around.add(boxes);
-    }
-    const double bounded = size_of(around);
-    return bounded > 0 ? bounded : planes;
-}
-
-/// A multiple of about `step`, so that differences to it stay exact.
-double rounded(double x, double step) {
-    const double unit = nearest_power_of_two(step);
-    return std::round(x / unit) * unit;
 }
 
 /// In the middle of what POV-Ray draws without error, with room for horizons: it sees nothing beyond 1e7.
@@ -130,26 +78,24 @@ double wanted_size(const ir::Scene& scene) {
 
 PovFrame choose_frame(const ir::Scene& scene) {
     PovFrame frame;
-    Bounds<double> around;
-    const double extent = extent_of(scene, around);
-    if (!(extent > 0) || !std::isfinite(extent)) {
+    const Extent extent = extent_of(scene);
+    if (!extent.is_usable()) {
         return frame;
     }
     const double wanted = wanted_size(scene);
     const double smallest = wanted > comfortable_size ? wanted / 2 : 1;
-    if (extent < smallest || extent > 1000) {
-        frame.scale = nearest_power_of_two(wanted / extent);
+    if (extent.size < smallest || extent.size > 1000) {
+        frame.scale = nearest_power_of_two(wanted / extent.size);
     }
-    const Vec3<double> center = around.center();
-    const double distance = length(center);
-    if (distance > 10 * extent && distance * frame.scale > 1e4) {
-        frame.origin = {rounded(center.x, extent), rounded(center.y, extent), rounded(center.z, extent)};
+    const double distance = length(extent.center);
+    if (distance > 10 * extent.size && distance * frame.scale > 1e4) {
+        frame.origin = extent.round_center();
     }
     return frame;
 }
 
 double mesh_scale(const ir::Mesh& mesh) {
-    const double size = size_of(mesh.box);
+    const double size = mesh.box.min.x <= mesh.box.max.x ? length(mesh.box.max - mesh.box.min) : 0;
     return size > 0 && (size < 0.1 || size > 1e4) ? nearest_power_of_two(comfortable_size / size) : 1;
 }
 

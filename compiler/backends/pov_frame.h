@@ -10,12 +10,11 @@
 /// cost accuracy.
 namespace scc::compiler {
 
-/// World point p is written as scale * (p - origin).
+/// A point p of the scene is written as scale * (p - origin).
 struct PovFrame {
     double scale = 1; ///< a power of two: numbers keep their digits
     runtime::Vec3<double> origin{};
 
-    bool is_world() const { return scale == 1 && origin == runtime::Vec3<double>{}; }
     runtime::Vec3<double> point(const runtime::Vec3<double>& p) const { return scale * (p - origin); }
     /// The transform of a texture whose x, y, z are world coordinates.
     std::string texture_transform() const;

@@ -108,6 +108,7 @@ std::string pixel_json(const Loaded& loaded, const runtime::RenderSettings& sett
               {"pixel", {place.x, place.y}},
               {"sample", {place.i, place.j}},
               {"precision", {{"of", name_of(precision.precision)}, {"why", precision.reason}}},
+              {"origin", settings.origin},
               {"place", {explained.how.column, explained.how.row}},
               {"rays", Json::array()}};
     if (!loaded.scene.bands.empty()) {

@@ -139,6 +139,7 @@ std::string json_text(const Loaded& loaded, const runtime::RenderSettings& setti
               {"pixel", {place.x, place.y}},
               {"sample", {place.i, place.j}},
               {"precision", {{"of", name_of(precision.precision)}, {"why", precision.reason}}},
+              {"origin", settings.origin},
               {"place", {explained.how.column, explained.how.row}},
               {"drawn", Json::array()}};
     const Names names(loaded);

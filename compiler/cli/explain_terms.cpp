@@ -75,6 +75,11 @@ std::string heading(const compiler::ir::Scene& scene, const runtime::RenderSetti
         out += "as by a plain grid with the box filter, which is not what the scene asks for\n";
     }
     out += fmt::format("in {}: {}\n", name_of(precision.precision), precision.reason);
+    if (const auto& o = settings.origin; o != decltype(settings.origin){}) {
+        out +=
+            fmt::format("the scene stands far from the world's origin: coordinates count from ({}, {}, {})\n",
+                        text(o[0]), text(o[1]), text(o[2]));
+    }
     if (!scene.bands.empty()) {
         const auto wavelength = [&](std::size_t k) { return lang::wavelength(3 * band + k); };
         out += fmt::format("colours are those of {}, {} and {} nm, the middle ones of {} times three\n",

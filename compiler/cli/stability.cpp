@@ -167,6 +167,7 @@ std::vector<Plan> plans_of(const std::shared_ptr<const Loaded>& loaded,
             if (power != 0 || generic.from != 0) {
                 generic.place(scene, std::pow(10.0, power), size_of(scene));
             }
+            compiler::recenter(scene);
             compiler::run_passes(scene);
             return std::optional(std::move(scene));
         };

@@ -205,6 +205,9 @@ std::string print(const Scene& scene) {
                  word(runtime::pixel_point_names, s.point), word(runtime::sampler_names, s.sampler),
                  word(runtime::filter_names, s.filter), s.adaptive);
     }
+    if (s.origin != decltype(s.origin){}) {
+        out.line("coordinates from ({}, {}, {})", s.origin[0], s.origin[1], s.origin[2]);
+    }
     const runtime::Camera<double>& c = scene.camera;
     out.line("camera {} eye = {}, u = {}, v = {}, n = {}, half_height = {}, shift = ({}, {})",
              word(runtime::projection_names, c.projection), text(c.eye), text(c.u), text(c.v), text(c.n),

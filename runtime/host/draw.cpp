@@ -117,6 +117,7 @@ int draw(const Drawable& drawable, const RenderOptions& options) {
 
     runtime::RenderResult result;
     runtime::AovImage aovs(image.width, image.height, options.aovs);
+    aovs.origin = request.settings.origin;
     Spent spent;
     {
         const InterruptGuard guard;

@@ -357,16 +357,17 @@ private:
                 list[i] = static_cast<T>(value) + T(0);
             }
         };
-        const auto put_vector = [&](std::array<std::vector<float>, 3>& lists, const Vec3<L>& v) {
-            put(lists[0], lane(v.x, 0));
-            put(lists[1], lane(v.y, 0));
-            put(lists[2], lane(v.z, 0));
+        const auto put_vector = [&](std::array<std::vector<float>, 3>& lists, const Vec3<L>& v,
+                                    const std::array<double, 3>& origin) {
+            put(lists[0], static_cast<double>(lane(v.x, 0)) + origin[0]);
+            put(lists[1], static_cast<double>(lane(v.y, 0)) + origin[1]);
+            put(lists[2], static_cast<double>(lane(v.z, 0)) + origin[2]);
         };
         if (entry == no_entry) {
             put(to.depth, std::numeric_limits<float>::infinity());
             put(to.planar, std::numeric_limits<float>::infinity());
-            put_vector(to.position, {});
-            put_vector(to.normal, {});
+            put_vector(to.position, {}, {});
+            put_vector(to.normal, {}, {});
             put(to.uv[0], 0.0F);
             put(to.uv[1], 0.0F);
             put(to.object, 0U);
@@ -381,8 +382,8 @@ private:
             shader_.template place<true>(groups, L(static_cast<R>(column)), L(static_cast<R>(row)), one);
         put(to.depth, lane(at.ahead * length(at.dir), 0));
         put(to.planar, lane(at.ahead, 0));
-        put_vector(to.position, at.point.world);
-        put_vector(to.normal, at.normal);
+        put_vector(to.position, at.point.world, to.origin);
+        put_vector(to.normal, at.normal, {});
         put(to.uv[0], lane(at.point.uv.x, 0));
         put(to.uv[1], lane(at.point.uv.y, 0));
         put(to.object, shader_.object_of(entries_.number(entry)) + 1);

@@ -15,7 +15,7 @@ constexpr std::string_view rounding = "the rounding of coordinates";
 constexpr std::string_view everyone = "pov,blender";
 
 constexpr Family table[] = {
-    {"offset", "offset", "distance from the origin", 0, 12, neutral, everyone, 11, rounding},
+    {"offset", "offset", "distance from the origin", 0, 12, neutral, everyone, 12, none},
     {"scale_down", "scale", "size of the scene, down", 0, -12, neutral, everyone, -12, none},
     {"scale_up", "scale", "size of the scene, up", 0, 12, neutral, everyone, 12, none},
     {"distance", "distance", "distance of the camera, parallel projection", 1, 15, neutral, everyone, 11,

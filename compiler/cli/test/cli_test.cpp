@@ -261,7 +261,7 @@ TEST_F(CommandLine, AutoPrecisionDependsOnSceneAndFile) {
                              "perspective_camera { eye = (C, 1, 5), target = (C, 0, 0) }\n"
                              "point_light { position = (C, 4, 5) }\n";
     write("near.scn", "let C = 0\n" + ball);
-    write("far.scn", "let C = 1e6\n" + ball);
+    write("far.scn", "let C = 1e6\nsphere { }\n" + ball);
     const auto choice = [&](std::vector<std::string> options) {
         options.insert(options.begin(), {"render", "--stats", "-"});
         const auto result = scc(options);
@@ -317,7 +317,7 @@ TEST_F(CommandLine, ChecksEveryObjectOfColumns) {
         table += "sphere { center = (1e7, " + std::to_string(i) + ", 0), radius = 1 }\n";
     }
     const std::string camera =
-        "perspective_camera { eye = (1e7, 1, 9), target = (1e7, 0, 0), near = 1e-5 }\n";
+        "perspective_camera { eye = (1e7, 1, 9), target = (1e7, 0, 0), near = 1e-5 }\nsphere { }\n";
     write("loop.scn", camera + "for (i in 0..100) { sphere { center = (1e7, i, 0), radius = 1 } }\n");
     write("table.scn", camera + table);
     for (const char* file : {"loop.scn", "table.scn"}) {
@@ -648,8 +648,8 @@ TEST_F(CommandLine, StabilityMovesAndScalesAUsersScene) {
     const auto sweeps = nlohmann::json::parse(result.out)["sweeps"];
     ASSERT_EQ(sweeps.size(), 3U);
     EXPECT_EQ(sweeps[0]["name"], "s/offset");
-    EXPECT_GE(sweeps[0]["thresholds"]["double"], 9);
-    EXPECT_LT(sweeps[0]["thresholds"]["float"], 6);
+    EXPECT_EQ(sweeps[0]["thresholds"]["double"], 12);
+    EXPECT_EQ(sweeps[0]["thresholds"]["float"], 12) << "what stands far off is drawn as if it stood near";
     EXPECT_EQ(sweeps[1]["thresholds"]["double"], -12);
     EXPECT_EQ(sweeps[2]["thresholds"]["double"], 12);
     EXPECT_EQ(nlohmann::json::parse(read("out/report.json"))["sweeps"], sweeps);

@@ -97,6 +97,42 @@ TEST_F(CommandLine, AovsAreLayersThatOtherProgramsRead) {
     EXPECT_TRUE(Json::parse(layers.texts.at("material.manifest")).contains("red"));
 }
 
+// Coordinates would lose digits there; what is told of places is where the author put them.
+TEST_F(CommandLine, WhatStandsFarOffIsDrawnAsIfItStoodNear) {
+    write("s.scn", "param far: number = 0\n"
+                   "perspective_camera { eye = (far, 1, 5), target = (far, 0, 0) }\n"
+                   "point_light { position = (far + 3, 4, 5) }\n"
+                   "sphere { center = (far, 0, 0) }\n"
+                   "box { min = (far - 2, -1, -1), max = (far - 1.25, 1, 1) }\n");
+    for (const char* mode : {"ray", "raster"}) {
+        const auto draw = [&](const char* far, const char* file) {
+            const auto drawn = scc({"render", "s.scn", "--mode", mode, "-D", std::string("far=") + far, "-o",
+                                    file, "--size", "64x48", "--aov", "depth,position"});
+            EXPECT_EQ(drawn.err, "");
+            return read_layers(path(file));
+        };
+        Layers near = draw("0", "near.exr"), far = draw("1e12", "far.exr");
+        for (const char* channel : {"R", "G", "B", "depth.Z", "position.Y", "position.Z"}) {
+            EXPECT_EQ(near.channels[channel], far.channels[channel]) << channel;
+        }
+        int met = 0;
+        for (std::size_t i = 0; i < near.channels["R"].size(); ++i) {
+            const bool is_met = std::isfinite(near.channels["depth.Z"][i]);
+            met += is_met ? 1 : 0;
+            EXPECT_EQ(far.channels["position.X"][i], is_met ? double{1e12F} : 0);
+        }
+        EXPECT_GT(met, 500);
+    }
+    const auto told = scc({"explain", "s.scn", "-D", "far=1e12", "--pixel", "400,300"});
+    EXPECT_NE(told.out.find("coordinates count from (1e+12, 0, 0)"), std::string::npos) << told.out;
+    EXPECT_NE(scc({"explain", "s.scn", "-D", "far=1e12", "--matrices"}).out.find("normalize((1e+12, 1, 5)"),
+              std::string::npos);
+    // What a function reads in the world keeps the scene where it is.
+    write("tied.scn", read("s.scn") + "sphere { center = (far, 2, 0), material = phong { diffuse = "
+                                      "fn(s: surface) = rgb(0.5 + 0.5 * sin(s.world.x), 0, 0) } }\n");
+    EXPECT_NE(scc({"check", "tied.scn", "-D", "far=1e12"}).err.find("[far-from-origin]"), std::string::npos);
+}
+
 TEST_F(CommandLine, AovsHaveTheirAnalyticValues) {
     write("s.scn", ball_and_disc);
     ASSERT_TRUE(scc({"render", "s.scn", "-o", "a.exr", "--size", "64x48", "--aov", all_aovs}).ok());
