@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstring>
 #include <vector>
 
 namespace scc::runtime::raster {
@@ -70,16 +69,12 @@ public:
 private:
     /// One for each pixel, a row of blocks at a time.
     void store_samples(const Crop& pixels, const Crop& crop, Image& image) const {
-        constexpr int row_floats = 3 * Buffer::block_width;
-        alignas(64) float rows[Buffer::block_height][std::size_t{3} * Buffer::size];
+        alignas(64) float rows[Buffer::block_height][std::size_t{3} * Buffer::size + std::size_t{N}];
         const int x1 = pixels.x1 - left_, y1 = pixels.y1 - top_;
         for (int row = 0; row < y1; row += Buffer::block_height) {
             for (int column = 0; column < x1; column += Buffer::block_width) {
-                float colors[std::size_t{3} * N];
-                store_interleaved(blocks_[Buffer::block_of(column, row)], colors);
-                for (int j = 0; j < Buffer::block_height; ++j) {
-                    std::memcpy(rows[j] + 3 * column, colors + j * row_floats, row_floats * sizeof(float));
-                }
+                store_rows<Buffer::block_width>(blocks_[Buffer::block_of(column, row)],
+                                                [&](int j) { return rows[j] + 3 * column; });
             }
             const int x0 = std::max(pixels.x0 - left_, 0), y0 = std::max(pixels.y0 - top_ - row, 0);
             for (int j = y0; j < std::min(Buffer::block_height, y1 - row); ++j) {
