@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace scc::compiler {
 
@@ -16,6 +17,9 @@ using runtime::Vec3;
 constexpr double double_steps = 1ULL << 53;
 constexpr double fewest_picture_steps = 1e5;
 
+/// In distances from the eye: the radius of a ball that might as well be a plane.
+constexpr double giant = 1e4;
+
 double largest_coordinate(const Vec3<double>& p) {
     return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
 }
@@ -24,8 +28,22 @@ struct PictureSteps {
     double steps, away;
 };
 
+/// Of a ball that the eye is near to, whose own size is what its surface is calculated with.
+std::optional<PictureSteps> giant_steps(const runtime::Camera<double>& camera, const Vec3<double>& center,
+                                        double radius) {
+    const double distance = std::abs(length(camera.eye - center) - radius);
+    if (!(radius > giant * distance)) {
+        return std::nullopt;
+    }
+    const bool is_parallel = camera.projection == runtime::Projection::orthographic;
+    const double height = 2 * camera.half_height * (is_parallel ? 1 : distance);
+    return PictureSteps{double_steps * height / radius, radius};
+}
+
 /// At the box's point nearest to the view's axis, as deep as its centre; nothing if that is not in the view.
-std::optional<PictureSteps> picture_steps(const runtime::Camera<double>& camera, const Box& box) {
+/// `reach`: the largest of the coordinates elsewhere that the surface there is calculated with.
+std::optional<PictureSteps> picture_steps(const runtime::Camera<double>& camera, const Box& box,
+                                          double reach = 0) {
     const double depth = dot(camera.eye - 0.5 * (box.min + box.max), camera.n);
     const Vec3<double> on_axis = camera.eye - depth * camera.n;
     const Vec3<double> nearest = minimum(maximum(on_axis, box.min), box.max);
@@ -35,7 +53,7 @@ std::optional<PictureSteps> picture_steps(const runtime::Camera<double>& camera,
         length(nearest - on_axis) > 2 * height) {
         return std::nullopt;
     }
-    const double away = std::max(largest_coordinate(camera.eye), largest_coordinate(nearest));
+    const double away = std::max({largest_coordinate(camera.eye), largest_coordinate(nearest), reach});
     return PictureSteps{double_steps * height / away, away};
 }
 
@@ -43,12 +61,26 @@ std::optional<PictureSteps> picture_steps(const runtime::Camera<double>& camera,
 
 std::optional<BeyondDouble> beyond_double(const ir::Scene& scene) {
     BeyondDouble worst{.steps = fewest_picture_steps, .span = {}, .path = {}};
-    for_each_box(scene, [&](const std::optional<Box>& box, const auto& span_of, const auto& path_of) {
-        const auto here = box ? picture_steps(scene.camera, *box) : std::nullopt;
+    const auto look_at = [&]<class Shape>(const Shape& shape, const runtime::Affine<double>& place,
+                                          const auto& span_of, const auto& path_of) {
+        std::optional<PictureSteps> here;
+        if (const std::optional<Box> box = box_in_world(shape, place, scene)) {
+            constexpr bool has_far_corners = std::is_same_v<Shape, runtime::Triangle<double>>;
+            here = picture_steps(
+                scene.camera, *box,
+                has_far_corners ? std::max(largest_coordinate(box->min), largest_coordinate(box->max)) : 0);
+        }
+        if constexpr (std::is_same_v<Shape, runtime::Sphere<double>>) {
+            const double scale = std::cbrt(std::abs(determinant(place)));
+            const auto giant =
+                giant_steps(scene.camera, transform_point(place, shape.center), shape.radius * scale);
+            here = giant ? giant : here;
+        }
         if (here && here->steps < worst.steps) {
             worst = {here->away, here->steps, span_of(), path_of()};
         }
-    });
+    };
+    for_each_placed(scene, look_at);
     return worst.away > 0 ? std::optional(worst) : std::nullopt;
 }
 

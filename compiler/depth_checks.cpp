@@ -134,7 +134,8 @@ std::optional<Gap> gap_between(const runtime::Camera<double>& camera, const Face
         return std::nullopt;
     }
     const double distance = (cosine > 0 ? other.offset : -other.offset) - one.offset;
-    if (std::abs(distance) <= 1e-9 * std::max(1.0, std::abs(one.offset))) {
+    constexpr double rounding = 5e-16;
+    if (std::abs(distance) <= rounding * std::max(1.0, std::abs(one.offset))) {
         return std::nullopt; // one plane: no depths tell what is meant
     }
     const std::optional<Box> box = common_box(one, other, distance);

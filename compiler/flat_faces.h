@@ -46,6 +46,9 @@ void for_each_flat_face(const Shape& shape, const runtime::Affine<double>& world
     } else if constexpr (std::is_same_v<Shape, runtime::Disc<double>>) {
         const Vec3<double> reach = runtime::disc_reach(shape.normal, shape.radius);
         f(face(shape.normal, shape.center, {shape.center - reach, shape.center + reach}));
+    } else if constexpr (std::is_same_v<Shape, runtime::Triangle<double>>) {
+        const auto& [a, b, c] = shape.points;
+        f(face(cross(b - a, c - a), a, {minimum(a, minimum(b, c)), maximum(a, maximum(b, c))}));
     } else if constexpr (requires { shape.caps; }) {
         const Vec3<double> axis = normalize(shape.to - shape.from);
         const auto add_cap = [&](const Vec3<double>& center, const Vec3<double>& normal, double radius) {

@@ -11,20 +11,20 @@ namespace scc::compiler {
 
 using Box = runtime::Bounds<double>;
 
-/// f(box, span, path) for every object, the box in world space and none for an unbounded shape; span() and
-/// path() are made where they are asked for, since of millions few are.
+/// f(shape, world_from_object, span, path) for every object; span() and path() are made where they are asked
+/// for, since of millions few are.
 template <class F>
-void for_each_box(const ir::Scene& scene, F f) {
-    const auto box = [&](const auto& shape, const runtime::Affine<double>& place) {
-        const std::optional<Box> own = object_bounds(shape, scene);
-        return own && place != runtime::Affine<double>{} ? transform_bounds(place, *own) : own;
-    };
+void for_each_placed(const ir::Scene& scene, F f) {
     ir::for_each_piece(
         scene,
         [&](const ir::Object& object) {
-            f(
-                box(object.shape, object.world_from_object), [&] { return object.span; },
-                [&] { return object.path; });
+            std::visit(
+                [&](const auto& shape) {
+                    f(
+                        shape, object.world_from_object, [&] { return object.span; },
+                        [&] { return object.path; });
+                },
+                object.shape);
         },
         [&](const ir::ObjectArray& array) {
             for (const ir::ObjectColumn& column : array.columns) {
@@ -32,13 +32,29 @@ void for_each_box(const ir::Scene& scene, F f) {
                     [&](const auto& shapes) {
                         for (std::size_t round = 0; round < array.rounds; ++round) {
                             f(
-                                box(shapes[round], column.world_from_object),
+                                shapes[round], column.world_from_object,
                                 [&] { return column.span_of(round); }, [&] { return column.path_of(round); });
                         }
                     },
                     column.shapes);
             }
         });
+}
+
+/// In world space; none for an unbounded shape.
+template <class Shape>
+std::optional<Box> box_in_world(const Shape& shape, const runtime::Affine<double>& place,
+                                const ir::Scene& scene) {
+    const std::optional<Box> own = object_bounds(shape, scene);
+    return own && place != runtime::Affine<double>{} ? transform_bounds(place, *own) : own;
+}
+
+/// f(box, span, path) for every object, as above.
+template <class F>
+void for_each_box(const ir::Scene& scene, F f) {
+    for_each_placed(scene, [&](const auto& shape, const auto& place, const auto& span, const auto& path) {
+        f(box_in_world(shape, place, scene), span, path);
+    });
 }
 
 } // namespace scc::compiler

@@ -140,6 +140,16 @@ Value spectral(const Spectrum& spectrum) {
     return {ColorValue{{}, std::make_shared<const std::vector<SpectralTerm>>(1, term)}};
 }
 
+/// Its area, and so the light's brightness, is as exact as its width.
+void check_line(BuiltinRun& run, double from, double to) {
+    constexpr double fewest_steps = 1 << 13;
+    const double steps = (to - from) / (std::nextafter(to, std::numeric_limits<double>::infinity()) - to);
+    if (steps < fewest_steps) {
+        run.report.report(Diag::narrow_line, run.span, to_string(number(from)), to_string(number(to)),
+                          fmt::format("{:.0f}", steps));
+    }
+}
+
 /// The points of a spectrum, or nothing after a report.
 std::vector<std::array<double, 2>> spectrum_points(BuiltinRun& run, const std::vector<Value>& list) {
     constexpr double largest_value = 1e30; // sums with light still are numbers, in float too
@@ -163,6 +173,9 @@ std::vector<std::array<double, 2>> spectrum_points(BuiltinRun& run, const std::v
         if (!points.empty() && nm <= points.back()[0]) {
             return refuse(fmt::format("in this spectrum {} nm comes after {} nm; wavelengths ascend",
                                       to_string(number(nm)), to_string(number(points.back()[0]))));
+        }
+        if (!points.empty()) {
+            check_line(run, points.back()[0], nm);
         }
         points.push_back({nm, point.v[1].value});
     }

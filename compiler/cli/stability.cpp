@@ -46,9 +46,14 @@ struct Options {
 /// Auto decides for a picture of this size: in smaller ones float saves nothing.
 constexpr int usual_width = 320, usual_height = 320;
 
+struct PlacedScene {
+    ir::Scene scene;
+    bool warned = false; ///< its author is told that numbers may not be enough
+};
+
 /// The scene at 10^power, with what is expected in its place if `formula`. Nothing, and the reason, where
 /// there is none.
-using SceneAt = std::function<std::optional<ir::Scene>(int power, bool formula, std::string& reason)>;
+using SceneAt = std::function<std::optional<PlacedScene>(int power, bool formula, std::string& reason)>;
 
 struct Plan {
     Sweep sweep;
@@ -80,7 +85,17 @@ std::string first_error(const lang::Diagnostics& diagnostics) {
     return {};
 }
 
-std::optional<ir::Scene> load_family(const Family& family, int power, bool formula, std::string& reason) {
+/// What is told of numbers that double has too few digits for.
+bool has_number_warning(const lang::Diagnostics& diagnostics) {
+    using enum lang::Diag;
+    const auto all = diagnostics.sorted();
+    return std::any_of(all.begin(), all.end(), [](const lang::Diagnostic& one) {
+        return one.kind == beyond_double || one.kind == coincident_faces || one.kind == depth_gap ||
+               one.kind == depth_precision || one.kind == narrow_line;
+    });
+}
+
+std::optional<PlacedScene> load_family(const Family& family, int power, bool formula, std::string& reason) {
     const std::string file = std::string(family.scene) + ".scn";
     const std::map<std::string, std::string> texts{{file, std::string(validation::scene_text(family.scene))}};
     SceneOptions options;
@@ -96,7 +111,8 @@ std::optional<ir::Scene> load_family(const Family& family, int power, bool formu
         reason = first_error(loaded.diagnostics);
         return std::nullopt;
     }
-    return std::move(loaded.scene);
+    const bool warned = has_number_warning(loaded.diagnostics);
+    return PlacedScene{std::move(loaded.scene), warned};
 }
 
 const char* words_for(Reference reference) {
@@ -169,7 +185,8 @@ std::vector<Plan> plans_of(const std::shared_ptr<const Loaded>& loaded,
             }
             compiler::recenter(scene);
             compiler::run_passes(scene);
-            return std::optional(std::move(scene));
+            const bool warned = compiler::beyond_double(scene).has_value();
+            return std::optional(PlacedScene{std::move(scene), warned});
         };
     }
     return plans;
@@ -190,7 +207,8 @@ public:
             if (!expected || plan.reference == Reference::formula) {
                 std::string reason;
                 const auto scene = plan.scene_at(power, plan.reference == Reference::formula, reason);
-                expected = scene ? std::optional(draw(*scene, compiler::Precision::full)) : std::nullopt;
+                expected =
+                    scene ? std::optional(draw(scene->scene, compiler::Precision::full)) : std::nullopt;
             }
             plan.sweep.steps.push_back(step(plan, power, expected));
             progress_.update(static_cast<double>(++done_) / steps_);
@@ -218,22 +236,24 @@ private:
         Step result;
         result.power = power;
         std::string reason = "there is nothing to compare with";
-        const std::optional<ir::Scene> scene = expected ? plan.scene_at(power, false, reason) : std::nullopt;
-        if (!scene) {
+        const std::optional<PlacedScene> placed =
+            expected ? plan.scene_at(power, false, reason) : std::nullopt;
+        if (!placed) {
             Reading none;
             none.reason = reason;
             result.readings.assign(plan.sweep.engines.size(), none);
             return result;
         }
-        const Reading single = validation::read(*expected, draw(*scene, compiler::Precision::single));
-        const Reading full = validation::read(*expected, draw(*scene, compiler::Precision::full));
-        const compiler::PrecisionChoice choice = choose(*scene);
+        const ir::Scene& scene = placed->scene;
+        const Reading single = validation::read(*expected, draw(scene, compiler::Precision::single));
+        const Reading full = validation::read(*expected, draw(scene, compiler::Precision::full));
+        const compiler::PrecisionChoice choice = choose(scene);
         result.chosen = name_of(choice.precision);
         result.why = choice.reason;
-        result.warned = compiler::beyond_double(*scene).has_value();
+        result.warned = placed->warned;
         result.readings = {single, full, choice.precision == compiler::Precision::single ? single : full};
         for (const std::string& name : plan.against) {
-            result.readings.push_back(read_other(name, *scene, *expected));
+            result.readings.push_back(read_other(name, scene, *expected));
         }
         return result;
     }

@@ -146,7 +146,7 @@ std::string sweep_html(const Sweep& sweep) {
     html += powers_text("Auto took float, which was not enough, at", wrong_picks(sweep));
     html += powers_text("Auto took double where float would have done, at", cautious_picks(sweep));
     html += powers_text("Double does not keep 1e-4 either at", beyond_double(sweep));
-    html += powers_text("Of these, `beyond-double` does not warn at", unwarned(sweep));
+    html += powers_text("Of these, no warning tells at", unwarned(sweep));
     return html + "</section>\n";
 }
 

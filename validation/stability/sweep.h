@@ -36,7 +36,7 @@ struct Step {
     std::vector<Reading> readings; ///< one per engine of the sweep
     std::string chosen;            ///< by `--precision auto`: float or double
     std::string why;
-    bool warned = false; ///< `beyond-double` tells the scene's author that double may not be enough
+    bool warned = false; ///< the scene's author is told that double may not be enough
 };
 
 /// Engines that every sweep has, before others.
