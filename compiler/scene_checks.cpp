@@ -100,6 +100,9 @@ void check_distance(const ir::Scene& scene, lang::Diagnostics& diagnostics) {
 }
 
 void check_double(const ir::Scene& scene, lang::Diagnostics& diagnostics) {
+    if (diagnostics.has_errors()) {
+        return; // the camera may not be what is meant
+    }
     if (const auto found = beyond_double(scene)) {
         diagnostics.report(Diag::beyond_double, found->span, found->path, fmt::format("{:.2g}", found->away),
                            fmt::format("{:.2g}", found->steps));

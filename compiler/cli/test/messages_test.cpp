@@ -86,7 +86,8 @@ const std::map<Diag, Case>& cases() {
           "0.1\n}\nrender { method = raster { } }\n"}},
         {Diag::far_from_origin, {"for (i in 0..3) {\n  sphere { center = (1e6, i, 0) }\n}\n"}},
         {Diag::narrow_line,
-         {"directional_light { color = spectrum([(589.5, 0), (589.5 + 1e-10, 1)]) }\nsphere { }\n"}},
+         {"let line = spectrum([(589.5, 0), (589.5 + 1e-10, 1)])\nsphere { material = phong { diffuse = "
+          "line } }\n"}},
         {Diag::beyond_double, {"sphere { }\northographic_camera { eye = (0, 0, 1e14), height = 4 }\n"}},
         {Diag::no_camera, {"sphere { }\n"}},
         {Diag::no_light, {"sphere { }\n"}},
