@@ -3,6 +3,7 @@
 #include "validation/junit.h"
 #include "validation/report.h"
 #include "validation/scratch.h"
+#include "validation/subprocess.h"
 
 #include <gtest/gtest.h>
 
@@ -220,6 +221,61 @@ TEST(Report, ViewersHoldTheNumbers) {
     values.pixels = {0, 1, -2, 0x1p-24F, 65520, 2047.9F / 2048};
     // 0000 3c00 c000 0001 7c00 3c00, little-endian
     EXPECT_EQ(half_floats(values, 1), base64(std::string("\0\0\0\x3c\0\xc0\1\0\0\x7c\0\x3c", 12)));
+}
+
+// Opens each viewer, goes through its modes, points at the pixel that differs, sorts each table, and tells in
+// the page's title what was seen.
+constexpr const char* visitor = R"js(<script>
+const seen = [];
+const probe = document.createElement("canvas").getContext("2d", {willReadFrequently: true});
+for (const viewer of document.querySelectorAll(".viewer")) {
+  viewer.querySelector("button").click();
+  const mode = viewer.querySelector("select"), canvas = viewer.querySelector("canvas");
+  const colors = ["wipe", "flip", "difference"].map(name => {
+    mode.value = name;
+    mode.dispatchEvent(new Event("input"));
+    probe.drawImage(canvas, 0, 0);
+    return probe.getImageData(7, 3, 1, 1).data.join();
+  });
+  const {left, top} = canvas.getBoundingClientRect(), pixel = canvas.clientWidth / canvas.width;
+  canvas.dispatchEvent(new MouseEvent("mousemove", {clientX: left + 7.5 * pixel, clientY: top + 3.5 * pixel}));
+  seen.push(new Set(colors).size + " colours, " + viewer.querySelector("output").textContent);
+}
+const heads = document.querySelectorAll("table.sortable th");
+for (const head of heads) head.click();
+seen.push([...heads].filter(head => head.dataset.sorted === "up").length + " sorted");
+document.title = seen.join("; ");
+</script>)js";
+
+TEST(Report, BrowserShowsSortsAndReadsWithoutAMessage) {
+    const auto browser = find_program("chromium");
+    if (!browser) {
+        GTEST_SKIP() << "needs Chromium";
+    }
+    const ScratchFolder folder;
+    std::string html = to_html(example());
+    const std::size_t end = html.rfind("</body>");
+    ASSERT_NE(end, std::string::npos);
+    html.insert(end, visitor);
+    std::ofstream(folder.path() / "page.html") << html;
+    const Command command{.program = *browser,
+                          .arguments = {"--headless", "--no-sandbox", "--disable-gpu",
+                                        "--enable-logging=stderr",
+                                        "--user-data-dir=" + (folder.path() / "profile").string(),
+                                        "--dump-dom", "file://" + (folder.path() / "page.html").string()},
+                          .directory = folder.path(),
+                          .environment = {{"HOME", folder.path().string()}},
+                          .timeout_seconds = 60,
+                          .max_output_bytes = std::size_t{64} << 20};
+    const ProcessResult result = run(command);
+    ASSERT_TRUE(result.ok()) << describe(result, command) << result.err;
+    EXPECT_EQ(result.err.find("CONSOLE"), std::string::npos) << result.err;
+    const std::size_t title = result.out.find("<title>");
+    ASSERT_NE(title, std::string::npos) << result.out;
+    const std::string told = result.out.substr(title, 400);
+    EXPECT_EQ(count(told, "3 colours, (7, 3): reference "), 2U) << told;
+    EXPECT_EQ(count(told, "difference 0.000 0.2500 0.000"), 2U) << told;
+    EXPECT_EQ(count(told, " 0 sorted"), 0U) << told;
 }
 
 TEST(JUnit, CountsAndEscapes) {
