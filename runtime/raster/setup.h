@@ -161,6 +161,11 @@ private:
     static Ints least(const Ints& a, const Ints& b) { return a < b ? a : b; }
     static Ints most(const Ints& a, const Ints& b) { return a > b ? a : b; }
 
+    /// Products are taken of all lanes, but have 32 bits in those of narrow triangles alone.
+    using Bits = runtime::detail::VectorType<std::uint32_t, N>;
+    static Bits bits_of(const Ints& a) { return reinterpret_cast<Bits>(a); }
+    static Ints of_narrow(const Bits& a) { return reinterpret_cast<Ints>(a); }
+
     /// Triangles on the grid, and the samples, to the last, that are in their bounding boxes.
     struct OnGrid {
         std::array<Ints, 3> x, y;
@@ -235,8 +240,8 @@ private:
     /// from which z is counted. The lanes whose triangles were clockwise as the picture shows them; those
     /// without an area leave `among`.
     static unsigned turn(OnGrid& t, unsigned& among) {
-        const Ints area =
-            (t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) - (t.x[2] - t.x[0]) * (t.y[1] - t.y[0]); // where narrow
+        const Ints area = of_narrow(bits_of(t.x[1] - t.x[0]) * bits_of(t.y[2] - t.y[0]) -
+                                    bits_of(t.x[2] - t.x[0]) * bits_of(t.y[1] - t.y[0]));
         const Ints none = area == 0;
         Ints swapped = area < 0;
         const unsigned narrow = grid_bits_of<L>(t.narrow);
@@ -267,8 +272,9 @@ private:
             const std::size_t k = i == 2 ? 0 : i + 1;
             const Ints x = t.y[i] - t.y[k], y = t.x[k] - t.x[i];
             const Ints is_top_left = (x > 0) | ((x == 0) & (y > 0)); // -1 where so
-            edges.at[i] =
-                (y * (t.y0 * grid - t.y[i]) + x * (t.x0 * grid - t.x[i]) - 1 - is_top_left) >> grid_bits;
+            edges.at[i] = of_narrow(bits_of(y) * bits_of(t.y0 * grid - t.y[i]) +
+                                    bits_of(x) * bits_of(t.x0 * grid - t.x[i]) - 1 - bits_of(is_top_left)) >>
+                          grid_bits;
             edges.x[i] = x;
             edges.y[i] = y;
         }
