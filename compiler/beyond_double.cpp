@@ -43,7 +43,7 @@ std::optional<PictureSteps> giant_steps(const runtime::Camera<double>& camera, c
 /// At the box's point nearest to the view's axis, as deep as its centre; nothing if that is not in the view.
 /// `reach`: the largest of the coordinates elsewhere that the surface there is calculated with.
 std::optional<PictureSteps> picture_steps(const runtime::Camera<double>& camera, const Box& box,
-                                          double reach = 0) {
+                                          double reach) {
     const double depth = dot(camera.eye - 0.5 * (box.min + box.max), camera.n);
     const Vec3<double> on_axis = camera.eye - depth * camera.n;
     const Vec3<double> nearest = minimum(maximum(on_axis, box.min), box.max);
@@ -61,14 +61,18 @@ std::optional<PictureSteps> picture_steps(const runtime::Camera<double>& camera,
 
 std::optional<BeyondDouble> beyond_double(const ir::Scene& scene) {
     BeyondDouble worst{.steps = fewest_picture_steps, .span = {}, .path = {}};
+    // The author's numbers were rounded there before the scene was moved.
+    const auto& [x, y, z] = scene.settings.origin;
+    const double origin = largest_coordinate({x, y, z});
     const auto look_at = [&]<class Shape>(const Shape& shape, const runtime::Affine<double>& place,
                                           const auto& span_of, const auto& path_of) {
         std::optional<PictureSteps> here;
         if (const std::optional<Box> box = box_in_world(shape, place, scene)) {
-            constexpr bool has_far_corners = std::is_same_v<Shape, runtime::Triangle<double>>;
-            here = picture_steps(
-                scene.camera, *box,
-                has_far_corners ? std::max(largest_coordinate(box->min), largest_coordinate(box->max)) : 0);
+            double reach = origin;
+            if constexpr (std::is_same_v<Shape, runtime::Triangle<double>>) {
+                reach = std::max({reach, largest_coordinate(box->min), largest_coordinate(box->max)});
+            }
+            here = picture_steps(scene.camera, *box, reach);
         }
         if constexpr (std::is_same_v<Shape, runtime::Sphere<double>>) {
             const double scale = std::cbrt(std::abs(determinant(place)));
