@@ -17,7 +17,8 @@ namespace scc::compiler {
 
 namespace {
 
-// Float has 24 bits. The limits leave, measured on spheres, an error of a hundredth of an 8-bit step, and 1e-4 in small pictures.
+// Float has 24 bits. The limits leave, measured on spheres, an error of a hundredth of an 8-bit step, and
+// 1e-4 in small pictures.
 constexpr double most_sizes_away = 2000;
 constexpr double most_tubes_away = 1000; ///< of a torus, whose equation is of degree 4
 constexpr double most_stretched = 300;
