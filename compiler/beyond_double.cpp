@@ -75,7 +75,8 @@ std::optional<BeyondDouble> beyond_double(const ir::Scene& scene) {
             here = picture_steps(scene.camera, *box, reach);
         }
         if constexpr (std::is_same_v<Shape, runtime::Sphere<double>>) {
-            const double scale = std::cbrt(std::abs(determinant(place)));
+            const bool is_moved = place != runtime::Affine<double>{};
+            const double scale = is_moved ? std::cbrt(std::abs(determinant(place))) : 1;
             const auto giant =
                 giant_steps(scene.camera, transform_point(place, shape.center), shape.radius * scale);
             here = giant ? giant : here;

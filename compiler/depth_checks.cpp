@@ -134,7 +134,7 @@ std::optional<Gap> gap_between(const runtime::Camera<double>& camera, const Face
         return std::nullopt;
     }
     const double distance = (cosine > 0 ? other.offset : -other.offset) - one.offset;
-    constexpr double rounding = 5e-16;
+    constexpr double rounding = 5e-16; // two of double's, of one coordinate each
     if (std::abs(distance) <= rounding * std::max(1.0, std::abs(one.offset))) {
         return std::nullopt; // one plane: no depths tell what is meant
     }

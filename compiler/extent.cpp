@@ -1,11 +1,11 @@
 #include "compiler/extent.h"
 
-#include "compiler/bounds.h"
-#include "compiler/ir/objects.h"
+#include "compiler/object_boxes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <type_traits>
 
 namespace scc::compiler {
@@ -57,9 +57,8 @@ Extent extent_of(const ir::Scene& scene) {
         scene, [&]<class Shape>(const Shape& shape, const Affine<double>& place, const runtime::Sides&) {
             if constexpr (std::is_same_v<Shape, runtime::Plane<double>>) {
                 planes = std::max(planes, plane_distance(shape, place, scene.camera.eye));
-            } else if (const auto bounds = object_bounds(shape, scene)) {
-                const Bounds<double> box = transform_bounds(place, *bounds);
-                by_size[std::ilogb(size_of(box))].add(box);
+            } else if (const std::optional<Box> box = box_in_world(shape, place, scene)) {
+                by_size[std::ilogb(size_of(*box))].add(*box);
             } else {
                 around.add(translation_of(place));
             }

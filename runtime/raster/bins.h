@@ -97,38 +97,30 @@ struct Bin {
         return small_of[tile].size() + narrow_of[tile].size() + triangles_of[tile].size() +
                lines_of[tile].size();
     }
-    /// A triangle that covers these samples of a square, which begins at (column, row) of the picture; some
-    /// drawn samples are in the square. write(t) sets what does not depend on the tile, in its place: a copy
-    /// of what was just written in smaller pieces would have to wait for them.
-    template <class Write>
-    void add_small(std::int32_t column, std::int32_t row, std::uint32_t covered, const TileGrid& tiles,
-                   Write&& write) {
+    /// `column`, `row`: of its square's first sample, in the picture. Some drawn samples are in the square.
+    void add(SmallTriangle<R> t, std::int32_t column, std::int32_t row, const TileGrid& tiles) {
         constexpr std::int32_t width = SmallTriangle<R>::width;
         const SampleBox square{column, row, column + width, row + width};
+        const std::uint32_t covered = t.covered;
         tiles.for_each_tile(intersection(square, tiles.box()), [&](std::size_t tile, int left, int top) {
             const std::int32_t x = column - left, y = row - top;
             const std::uint32_t inside = covered & samples_in_tile(x, tiles.tile_samples()) * 0x1111U &
                                          rows_in_tile(y, tiles.tile_samples());
             if (inside != 0) {
-                SmallTriangle<R>& t = small_of[tile].emplace_back();
                 t.column = static_cast<std::int16_t>(x);
                 t.row = static_cast<std::int16_t>(y);
                 t.covered = static_cast<std::uint16_t>(inside);
-                write(t);
+                small_of[tile].push_back(t);
             }
         });
     }
-    /// The same of a narrow one in this box of the picture.
-    template <class Write>
-    void add_narrow(const SampleBox& box, const TileGrid& tiles, Write&& write) {
+    /// `column`, `row`: of its box's first sample, in the picture. Some drawn samples are in the box.
+    void add(NarrowTriangle<R> t, std::int32_t column, std::int32_t row, const TileGrid& tiles) {
+        const SampleBox box{column, row, column + t.columns, row + t.rows};
         tiles.for_each_tile(intersection(box, tiles.box()), [&](std::size_t tile, int left, int top) {
-            NarrowTriangle<R>& t = narrow_of[tile].emplace_back();
-            __builtin_prefetch(&t + 6, 1);
-            t.column = static_cast<std::int16_t>(box.x0 - left);
-            t.row = static_cast<std::int16_t>(box.y0 - top);
-            t.columns = static_cast<std::int8_t>(box.x1 - box.x0);
-            t.rows = static_cast<std::int8_t>(box.y1 - box.y0);
-            write(t);
+            t.column = static_cast<std::int16_t>(column - left);
+            t.row = static_cast<std::int16_t>(row - top);
+            narrow_of[tile].push_back(t);
         });
     }
     void add(const ScreenTriangle<R>& t, const SampleBox& box, const TileGrid& tiles) {

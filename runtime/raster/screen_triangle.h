@@ -62,8 +62,6 @@ template <class R>
 struct SmallTriangle {
     static constexpr std::int32_t width = 4; ///< of the square
 
-    SmallTriangle() {} // what a list adds is written at once: zeros would be for nothing
-
     std::int16_t column, row; ///< the square's first sample in the tile; may lie before it
     std::uint16_t covered;    ///< a bit for each sample that is shown, by rows; all are in the tile
     std::uint32_t id;
@@ -73,8 +71,6 @@ struct SmallTriangle {
 /// A narrow triangle with all that filling it in a tile needs, since a setup of many at once is cheaper.
 template <class R>
 struct NarrowTriangle {
-    NarrowTriangle() {} // likewise
-
     std::uint32_t id;
     std::int16_t column, row;  ///< the first sample of its bounding box in the tile; may lie before it
     std::int8_t columns, rows; ///< samples in the box, which may go beyond the tile

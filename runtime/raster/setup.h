@@ -351,20 +351,23 @@ private:
         };
         for (unsigned left = lanes.small; left != 0; left &= left - 1) {
             const int k = __builtin_ctz(left);
-            bin.add_small(t.x0[k], t.y0[k], static_cast<std::uint32_t>(covered[k]), tiles_,
-                          [&](SmallTriangle<R>& small) { set(small, k); });
+            SmallTriangle<R> small;
+            set(small, k);
+            small.covered = static_cast<std::uint16_t>(covered[k]);
+            bin.add(small, t.x0[k], t.y0[k], tiles_);
         }
         for (unsigned left = lanes.narrow; left != 0; left &= left - 1) {
             const int k = __builtin_ctz(left);
-            bin.add_narrow({t.x0[k], t.y0[k], t.x1[k] + 1, t.y1[k] + 1}, tiles_,
-                           [&](NarrowTriangle<R>& narrow) {
-                               set(narrow, k);
-                               for (std::size_t i = 0; i < 3; ++i) {
-                                   narrow.edge[i] = edges.at[i][k];
-                                   narrow.edge_x[i] = static_cast<std::int16_t>(edges.x[i][k]);
-                                   narrow.edge_y[i] = static_cast<std::int16_t>(edges.y[i][k]);
-                               }
-                           });
+            NarrowTriangle<R> narrow;
+            set(narrow, k);
+            narrow.columns = static_cast<std::int8_t>(t.x1[k] - t.x0[k] + 1);
+            narrow.rows = static_cast<std::int8_t>(t.y1[k] - t.y0[k] + 1);
+            for (std::size_t i = 0; i < 3; ++i) {
+                narrow.edge[i] = edges.at[i][k];
+                narrow.edge_x[i] = static_cast<std::int16_t>(edges.x[i][k]);
+                narrow.edge_y[i] = static_cast<std::int16_t>(edges.y[i][k]);
+            }
+            bin.add(narrow, t.x0[k], t.y0[k], tiles_);
         }
         for (unsigned left = others; left != 0; left &= left - 1) {
             const int k = __builtin_ctz(left);

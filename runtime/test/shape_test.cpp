@@ -334,6 +334,7 @@ TYPED_TEST(EveryShape, MovingRayAndObjectTogetherKeepsTheDistance) {
             if (is_hit(hit) != is_hit(other)) {
                 ++others;
             } else if (is_hit(hit)) {
+                // Two maps and their inverses round, and stretch by up to some tens.
                 const auto at = single.surface(ray, hit);
                 const double slope = std::abs(static_cast<double>(dot(at.surface.normal, ray.dir)));
                 const double far = static_cast<double>(length(ray.org) + length(at.surface.point));
@@ -342,8 +343,9 @@ TYPED_TEST(EveryShape, MovingRayAndObjectTogetherKeepsTheDistance) {
             }
         }
     });
-    // Rays within rounding of an outline meet either what has it or what is behind.
-    const int most = std::is_same_v<R, float> ? 4 + rays / 2000 : 1 + rays / 200000;
+    // Rays within rounding of an outline meet either what has it or what is behind: of 200 000 in float up to
+    // 3 were seen, in double none.
+    const int most = std::is_same_v<R, float> ? rays / 20000 : rays / 1000000;
     EXPECT_LE(others, most) << "of " << rays;
 }
 
