@@ -142,7 +142,7 @@ Value spectral(const Spectrum& spectrum) {
 
 /// Its area, and so the light's brightness, is as exact as its width.
 void check_line(BuiltinRun& run, double from, double to) {
-    constexpr double fewest_steps = 1 << 13;
+    constexpr double fewest_steps = 1 << 13; // to within 1e-4
     const double steps = (to - from) / (std::nextafter(to, std::numeric_limits<double>::infinity()) - to);
     if (steps < fewest_steps) {
         run.report.report(Diag::narrow_line, run.span, to_string(number(from)), to_string(number(to)),
