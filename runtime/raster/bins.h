@@ -28,6 +28,7 @@ public:
 
     const SampleBox& box() const { return box_; }   ///< all samples that are drawn
     int samples_across() const { return samples_; } ///< a pixel
+    int pixels_across() const { return crop_.x1 - crop_.x0; }
     int count() const { return across_ * down_; }
     int across() const { return across_; }
     int tile_samples() const { return pixels_ * samples_; } ///< across a tile
@@ -44,12 +45,12 @@ public:
     /// f(tile, its left, its top) for each that has some of the samples, which are drawn ones.
     template <class F>
     void for_each_tile(const SampleBox& samples, F&& f) const {
-        const int x0 = along(samples.x0) - first_column_, x1 = along(samples.x1 - 1) - first_column_,
-                  y0 = along(samples.y0) - first_row_, y1 = along(samples.y1 - 1) - first_row_;
-        for (int y = y0; y <= y1; ++y) {
-            for (int x = x0; x <= x1; ++x) {
-                f(static_cast<std::size_t>(y * across_ + x), (first_column_ + x) * tile_samples(),
-                  (first_row_ + y) * tile_samples());
+        const int size = tile_samples(), column = along(samples.x0), row = along(samples.y0);
+        int first = (row - first_row_) * across_ + column - first_column_;
+        for (int top = row * size; top < samples.y1; top += size, first += across_) {
+            int tile = first;
+            for (int left = column * size; left < samples.x1; left += size) {
+                f(static_cast<std::size_t>(tile++), left, top);
             }
         }
     }
@@ -76,6 +77,7 @@ struct Bin {
     std::vector<std::vector<NarrowTriangle<R>>> narrow_of; ///< of each tile
     std::vector<std::vector<std::uint32_t>> triangles_of;  ///< of each tile: the others
     std::vector<std::vector<std::uint32_t>> lines_of;      ///< of each tile
+    std::vector<std::uint32_t> fronts_of; ///< of each surface: how many of the triangles show their front
 
     /// Keeps the memory.
     void clear(const TileGrid& tiles) {
@@ -91,6 +93,7 @@ struct Bin {
         clear_lists(narrow_of);
         clear_lists(triangles_of);
         clear_lists(lines_of);
+        fronts_of.clear();
     }
     bool has_nothing_in(std::size_t tile) const { return count_in(tile) == 0; }
     std::size_t count_in(std::size_t tile) const {

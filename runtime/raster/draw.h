@@ -26,7 +26,8 @@ class RasterPainter {
     using R = typename S::Real;
 
 public:
-    RasterPainter(const S& scene, const RasterModel<R>& model) : scene_(scene), model_(model) {}
+    RasterPainter(const S& scene, const RasterModel<R>& model)
+        : scene_(scene), model_(model), lights_(scene, model) {}
 
     /// `paint(painter, tile)` finishes a tile that `painter` shows; the calling thread calls `progress`.
     template <class Paint>
@@ -37,16 +38,18 @@ public:
         if (tiles.count() <= 0) {
             return true;
         }
+        lights_.update(view, bins_, shading, request.threads);
         std::atomic<int> next{0}, done{0};
         std::atomic<bool> stopped{false};
         const auto work = [&](auto&& after_tile) {
-            TilePainter<S, L> painter(scene_, model_, view, tiles, bins_, shading);
+            TilePainter<S, L> painter(scene_, model_, view, tiles, bins_, lights_, shading);
             for (int tile = next++; tile < tiles.count() && !stopped; tile = next++) {
                 painter.show(tile);
                 paint(painter, tile);
                 ++done;
                 after_tile();
             }
+            painter.finish();
         };
         Progress progress(request);
         std::vector<std::jthread> others;
@@ -115,6 +118,7 @@ private:
     const S& scene_;
     const RasterModel<R>& model_;
     std::vector<Bin<R>> bins_;
+    VertexLights<S, L> lights_;
 };
 
 } // namespace raster

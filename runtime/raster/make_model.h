@@ -2,6 +2,7 @@
 
 #include "runtime/primitive.h"
 #include "runtime/raster/edges.h"
+#include "runtime/raster/mesh_vertices.h"
 #include "runtime/raster/model.h"
 #include "runtime/render_settings.h"
 #include "runtime/tessellate/shapes.h"
@@ -179,6 +180,10 @@ private:
                         }
                     }
                 }
+            }
+            if (settings_.raster.shading == RasterShading::gouraud) {
+                model_.mesh_vertices.resize(scene_.meshes.size());
+                model_.mesh_vertices[surface.mesh] = raster::shared_vertices(mesh, parts);
             }
         }
         surface.count = static_cast<std::uint32_t>(parts.size());

@@ -33,6 +33,12 @@ struct RasterSurface {
     Affine<R> object_from_world{};
 };
 
+/// A mesh's vertices by the numbers of its normals, where each of these belongs to one place; else empty.
+struct MeshVertices {
+    std::vector<float> positions;          ///< x y z of each, in the mesh's own space
+    std::vector<std::uint32_t> of_corners; ///< 3 of each triangle, in the order in which these lie in memory
+};
+
 template <class R>
 struct RasterModel {
     std::vector<RasterSurface<R>> surfaces; ///< in the order of their ids
@@ -41,9 +47,10 @@ struct RasterModel {
     std::vector<RasterTriangle> triangles;
     /// Of each mesh: ShapeHit::part of its triangles, in the order in which they lie in memory.
     std::vector<std::vector<std::uint32_t>> mesh_parts;
-    std::vector<LineSegment<R>> segments; ///< edges of polygons, and polylines
-    std::uint32_t triangle_count = 0;     ///< of all surfaces
-    std::vector<std::uint32_t> left_out;  ///< ids of what has no mesh: unbounded quadrics and solids of them
+    std::vector<MeshVertices> mesh_vertices; ///< of each mesh, if vertices are lit
+    std::vector<LineSegment<R>> segments;    ///< edges of polygons, and polylines
+    std::uint32_t triangle_count = 0;        ///< of all surfaces
+    std::vector<std::uint32_t> left_out; ///< ids of what has no mesh: unbounded quadrics and solids of them
 };
 
 /// So many triangles a model can have; the rest of a number's bits has other uses.

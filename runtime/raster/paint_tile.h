@@ -2,6 +2,7 @@
 
 #include "runtime/aov.h"
 #include "runtime/image.h"
+#include "runtime/raster/background_rows.h"
 #include "runtime/raster/fill.h"
 #include "runtime/raster/lines.h"
 #include "runtime/raster/shade_triangles.h"
@@ -31,9 +32,10 @@ class TilePainter {
 
 public:
     TilePainter(const S& scene, const RasterModel<R>& model, const RasterView<R>& view, const TileGrid& tiles,
-                const std::vector<Bin<R>>& bins, RasterShading shading)
+                const std::vector<Bin<R>>& bins, const VertexLights<S, L>& lights, RasterShading shading)
         : scene_(scene), model_(model), view_(view), tiles_(tiles), bins_(bins),
-          shader_(scene, model, view, shading), colors_(tiles) {}
+          shader_(scene, model, view, lights, shading), colors_(tiles),
+          background_(scene_background(), tiles.pixels_across()) {}
 
     /// Finds what the tile's samples show.
     void show(int tile) {
@@ -50,12 +52,16 @@ public:
         colors_.start(buffer_.left(), buffer_.top());
         const auto earlier = [this](std::uint32_t a, std::uint32_t b) { return is_earlier(a, b); };
         for (const Bin<R>& bin : bins_) {
-            for (const SmallTriangle<R>& t : bin.small_of[index]) {
-                buffer_.fill(t, entries_.add(t.id), earlier);
-            }
-            for (const NarrowTriangle<R>& t : bin.narrow_of[index]) {
-                buffer_.fill(t, entries_.add(t.id), earlier);
-            }
+            const auto fill = [&](const auto& triangles) {
+                for (std::size_t i = 0; i < triangles.size(); ++i) {
+                    buffer_.fill(triangles[i], entries_.add(triangles[i].id), earlier);
+                    if (i % fills_per_write == 0) {
+                        background_.write_some();
+                    }
+                }
+            };
+            fill(bin.small_of[index]);
+            fill(bin.narrow_of[index]);
             for (const std::uint32_t i : bin.triangles_of[index]) {
                 const ScreenTriangle<R>& t = bin.triangles[i];
                 const std::uint32_t entry = entries_.add(t.id);
@@ -82,7 +88,8 @@ public:
         }
     }
 
-    /// Its pixels' light, and z* if asked for, into pictures of the crop's size.
+    /// Its pixels' light, and z* if asked for, into pictures of the crop's size. The light of empty tiles is
+    /// there after finish().
     void paint(int tile, const Crop& crop, Image& image, std::vector<R>* pseudodepth) {
         const Crop pixels = tiles_.pixels_of(tile);
         if (entries_.empty()) {
@@ -107,6 +114,8 @@ public:
             store_depth(buffer_, tiles_.samples_across(), pixels, crop, image.width, *pseudodepth);
         }
     }
+
+    void finish() { background_.write_all(); }
 
     /// What lies on a sample of the picture, seen or not: a triangle by its id, or a line by its segment.
     struct Covering {
@@ -183,6 +192,7 @@ public:
     }
 
 private:
+    static constexpr std::size_t fills_per_write = 4; ///< which take about as long as write_some()
     struct Through {
         const ScreenTriangle<R>* triangle;
         std::uint32_t entry;
@@ -194,6 +204,11 @@ private:
         R z;
     };
 
+    Rgb<float> scene_background() const {
+        const Rgb<R> color(scene_.background);
+        return {static_cast<float>(color.r) + 0.0F, static_cast<float>(color.g) + 0.0F,
+                static_cast<float>(color.b) + 0.0F};
+    }
     bool is_empty(int tile) const {
         return std::all_of(bins_.begin(), bins_.end(), [&](const Bin<R>& bin) {
             return bin.has_nothing_in(static_cast<std::size_t>(tile));
@@ -338,17 +353,10 @@ private:
             ++end;
         }
         const Crop pixels = tiles_.pixels_of(tile);
-        const auto numbers = static_cast<std::size_t>(3 * (tiles_.pixels_of(end - 1).x1 - pixels.x0));
-        const Rgb<R> background(scene_.background);
-        while (background_.size() < numbers) {
-            for (const R channel : {background.r, background.g, background.b}) {
-                background_.push_back(static_cast<float>(channel) + 0.0F);
-            }
-        }
+        const int width = tiles_.pixels_of(end - 1).x1 - pixels.x0;
         for (int y = pixels.y0; y < pixels.y1; ++y) {
-            stream(background_.data(), numbers, image.at(pixels.x0 - crop.x0, y - crop.y0));
+            background_.add(image.at(pixels.x0 - crop.x0, y - crop.y0), width);
         }
-        streams_end();
     }
     void store_aovs(int column, int row, std::uint32_t entry, std::size_t i, AovImage& to) const {
         const auto put = [i](auto& list, auto value) {
@@ -402,7 +410,7 @@ private:
     std::uint32_t first_line_ = 0; ///< entries from here on are lines
     std::vector<Through> through_;
     std::vector<Fragment> fragments_;
-    std::vector<float> background_; ///< pixels of it
+    BackgroundRows background_;
 };
 
 } // namespace scc::runtime::raster

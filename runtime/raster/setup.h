@@ -6,6 +6,7 @@
 #include "runtime/raster/corners.h"
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -80,6 +81,7 @@ public:
 
     /// Triangles [first, last) of the model.
     void run(std::uint32_t first, std::uint32_t last, Bin<R>& bin) const {
+        bin.fronts_of.resize(model_.surfaces.size());
         for (const RasterSurface<R>& surface : model_.surfaces) {
             const std::uint32_t begin = std::max(first, surface.first),
                                 end = std::min(last, surface.first + surface.count);
@@ -97,10 +99,12 @@ private:
     struct Flags {
         std::uint32_t front = 0, back = seen_from_back;
         bool mirrored = false;
+        std::size_t surface = 0; ///< which they are of
     };
     Flags flags_of(const RasterSurface<R>& surface) const {
         Flags flags;
         flags.mirrored = surface.is_mirrored;
+        flags.surface = static_cast<std::size_t>(&surface - model_.surfaces.data());
         if constexpr (S::traits.transmission) {
             const auto flag = [&](std::uint32_t material) {
                 return !choice_.all_opaque && lets_through(Phong<R>(scene_.materials[material]))
@@ -227,6 +231,7 @@ private:
         if (among == 0) {
             return;
         }
+        bin.fronts_of[flags.surface] += static_cast<std::uint32_t>(std::popcount(among & ~back));
         store(p, t, covered, edges, {among, small, narrow, back}, flags, number, bin);
     }
     /// The lanes in whose bounding boxes there are sample centres that are drawn.

@@ -5,6 +5,7 @@
 #include "runtime/raster/lane_groups.h"
 #include "runtime/raster/light_points.h"
 #include "runtime/raster/lit_corners.h"
+#include "runtime/raster/vertex_lights.h"
 
 #include <algorithm>
 #include <array>
@@ -28,8 +29,8 @@ public:
     using Groups = LaneGroups<L>;
 
     TriangleShader(const S& scene, const RasterModel<R>& model, const RasterView<R>& view,
-                   RasterShading shading)
-        : scene_(scene), model_(model), view_(view), shading_(shading), lighting_(scene) {}
+                   const VertexLights<S, L>& lights, RasterShading shading)
+        : scene_(scene), model_(model), view_(view), lights_(lights), shading_(shading), lighting_(scene) {}
 
     /// The tile that begins at this sample.
     void start(int left, int top) {
@@ -37,6 +38,7 @@ public:
         top_ = top;
         shown_.clear();
         to_prepare_.clear();
+        lit_.clear();
         has_samples_ = has_vertices_ = false;
     }
     /// A triangle, by its id (see screen_triangle.h); a number for it.
@@ -44,13 +46,22 @@ public:
         if (shading_ == RasterShading::hidden_line) {
             return add(Rgb<R>(scene_.background));
         }
-        to_prepare_.push_back(static_cast<std::uint32_t>(shown_.size()));
+        const auto number = static_cast<std::uint32_t>(shown_.size());
         Shown& shown = shown_.emplace_back();
         shown.id = id;
         shown.surface = &surface_of(id & triangle_number);
         shown.by_sample = shading_ == RasterShading::phong || shown.surface->at_infinity;
         (shown.by_sample ? has_samples_ : has_vertices_) = true;
-        return to_prepare_.back();
+        const bool is_front = (id & seen_from_back) == 0;
+        if (is_front && lights_.has(*shown.surface)) {
+            lit_.push_back({number, lights_.corners(*shown.surface, id & triangle_number)});
+            for (const Vertex* vertex : lit_.back().corners) {
+                __builtin_prefetch(vertex); // prepare() reads it, when all are known
+            }
+        } else {
+            to_prepare_.push_back(number);
+        }
+        return number;
     }
     /// What is not lit.
     std::uint32_t add(const Rgb<R>& color) {
@@ -73,6 +84,9 @@ public:
         }
         if (count > 0) {
             prepare(pack, count);
+        }
+        for (std::size_t i = 0; i < lit_.size(); i += N) {
+            prepare_lit(&lit_[i], std::min<std::size_t>(N, lit_.size() - i));
         }
     }
 
@@ -181,6 +195,13 @@ private:
         Vec3<R> geometric{};
     };
 
+    using Vertex = typename VertexLights<S, L>::Vertex;
+    /// A triangle whose vertices were lit before.
+    struct Lit {
+        std::uint32_t number;
+        std::array<const Vertex*, 3> corners;
+    };
+
     void set_color(std::size_t number, const Rgb<R>& color, std::size_t at) {
         set_color(shown_[number], color, at);
     }
@@ -239,22 +260,45 @@ private:
         std::fill(pack.begin() + static_cast<std::ptrdiff_t>(count), pack.end(), pack[count - 1]);
         const LitCorners<L> corners = corners_of(pack);
         std::array<EyePoint<L>, 3> eye;
-        std::array<ClipPoint<L>, 3> clip;
         for (std::size_t c = 0; c < 3; ++c) {
             eye[c] = view_.to_eye(corners.points[c], corners.weights[c]);
-            clip[c] =
-                view_.to_clip(eye[c], L(static_cast<R>(left_) + R(0.5)), L(static_cast<R>(top_) + R(0.5)));
         }
-        const std::array<Linear<L>, 3> weights = corner_weights(clip);
-        const auto sum_of = [&](auto&& of_corner) {
-            return weights[0] * of_corner(0) + weights[1] * of_corner(1) + weights[2] * of_corner(2);
-        };
+        const auto sum_of = blend_of(eye);
         if (has_samples_) {
             prepare_samples(pack, count, corners, eye, sum_of);
         }
         if (has_vertices_) {
             prepare_vertices(pack, count, corners, sum_of);
         }
+    }
+    /// What gives, of numbers at the corners, their sum by the corners' weights.
+    auto blend_of(const std::array<EyePoint<L>, 3>& eye) const {
+        std::array<ClipPoint<L>, 3> clip;
+        for (std::size_t c = 0; c < 3; ++c) {
+            clip[c] =
+                view_.to_clip(eye[c], L(static_cast<R>(left_) + R(0.5)), L(static_cast<R>(top_) + R(0.5)));
+        }
+        return [weights = corner_weights(clip)](auto&& of_corner) {
+            return weights[0] * of_corner(0) + weights[1] * of_corner(1) + weights[2] * of_corner(2);
+        };
+    }
+    /// The first `count` of these triangles.
+    void prepare_lit(const Lit* lit, std::size_t count) {
+        PackOfShown pack;
+        std::array<std::array<const Vertex*, static_cast<std::size_t>(N)>, 3> vertices;
+        for (std::size_t k = 0; k < pack.size(); ++k) {
+            const Lit& one = lit[std::min(k, count - 1)];
+            pack[k] = &shown_[one.number];
+            for (std::size_t c = 0; c < 3; ++c) {
+                vertices[c][k] = one.corners[c];
+            }
+        }
+        std::array<EyePoint<L>, 3> eye;
+        std::array<Seen<L>, 3> seen;
+        for (std::size_t c = 0; c < 3; ++c) {
+            gather_vertices(vertices[c], eye[c], seen[c]);
+        }
+        keep_colors(pack, count, seen, blend_of(eye));
     }
     template <class SumOf>
     void prepare_samples(const PackOfShown& pack, std::size_t count, const LitCorners<L>& corners,
@@ -298,6 +342,11 @@ private:
         for (std::size_t c = 0; c < 3; ++c) {
             seen[c] = light_vertex(pack, corners, c, active);
         }
+        keep_colors(pack, count, seen, sum_of);
+    }
+    template <class SumOf>
+    void keep_colors(const PackOfShown& pack, std::size_t count, const std::array<Seen<L>, 3>& seen,
+                     SumOf&& sum_of) {
         const auto keep = [&](std::size_t at, auto&& of_corner) {
             store(pack, count, false, at, sum_of(of_corner));
         };
@@ -374,10 +423,12 @@ private:
     const S& scene_;
     const RasterModel<R>& model_;
     const RasterView<R>& view_;
+    const VertexLights<S, L>& lights_;
     RasterShading shading_;
     PointLighting<S, L> lighting_;
     std::vector<Shown> shown_;
     std::vector<std::uint32_t> to_prepare_;
+    std::vector<Lit> lit_;
     const RasterSurface<R>* last_surface_ = nullptr;
     bool has_samples_ = false;  ///< something shown is lit at each sample
     bool has_vertices_ = false; ///< something shown is not

@@ -17,7 +17,7 @@ namespace scc::runtime::test {
 namespace {
 
 /// What the scenes here need; kernels are compiled for nothing else.
-template <class R_>
+template <class R_, bool has_functions = true>
 struct RasterScene : SceneBase<R_> {
     using R = R_;
     static constexpr SceneTraits traits{.bare_shapes = 1U << 0 | 1U << 2 | 1U << 6,
@@ -26,7 +26,7 @@ struct RasterScene : SceneBase<R_> {
                                         .specular = true,
                                         .transmission = true,
                                         .two_sided = true,
-                                        .functions = true,
+                                        .functions = has_functions,
                                         .smooth_normals = true,
                                         .perspective = true,
                                         .raster = true,
@@ -103,8 +103,8 @@ RenderRequest request(int width, int height, RasterShading shading = RasterShadi
     return result;
 }
 
-template <class L, class R>
-Image draw_with(const RasterScene<R>& scene, const RenderRequest& wanted) {
+template <class L, class Scene>
+Image draw_with(const Scene& scene, const RenderRequest& wanted) {
     Image image(wanted.crop.x1 - wanted.crop.x0, wanted.crop.y1 - wanted.crop.y0);
     draw_raster_with_lanes<L>(scene, raster_model(scene, wanted.settings), wanted, image);
     return image;
@@ -342,6 +342,99 @@ TEST(Raster, DrawsMirroredMeshesFromTheirFront) {
         const RenderRequest wanted = request(60, 40, shading);
         EXPECT_LT(root_mean_square(draw(placed, wanted), draw(in_world, wanted)), 1e-7);
     }
+}
+
+/// A wavy square of (side - 1)^2 x 2 triangles across the view.
+struct WavySquare {
+    static constexpr std::uint32_t side = 24;
+    std::vector<float> positions, normals;
+    std::vector<std::uint32_t> indices;
+
+    WavySquare() {
+        for (std::uint32_t i = 0; i < side * side; ++i) {
+            const float x = static_cast<float>(i % side) / (side - 1) * 4 - 2,
+                        y = static_cast<float>(i / side) / (side - 1) * 4 - 2;
+            positions.insert(positions.end(), {x, y, 0.8F * std::sin(3 * x) * std::cos(2 * y)});
+            const Vec3<float> normal{-2.4F * std::cos(3 * x) * std::cos(2 * y),
+                                     1.6F * std::sin(3 * x) * std::sin(2 * y), 1};
+            normals.insert(normals.end(), {normal.x, normal.y, normal.z});
+        }
+        for (std::uint32_t i = 0; i + side < side * side; ++i) {
+            if (i % side + 1 < side) {
+                indices.insert(indices.end(), {i, i + 1, i + side, i + 1, i + side + 1, i + side});
+            }
+        }
+    }
+    MeshStorage mesh(std::vector<float> vertex_normals, std::vector<std::uint32_t> normal_indices) const {
+        return build_mesh(positions, indices, vertex_normals, normal_indices);
+    }
+    /// Each corner with a normal of its own.
+    MeshStorage mesh_of_corners() const {
+        std::vector<float> own;
+        std::vector<std::uint32_t> numbers;
+        for (const std::uint32_t i : indices) {
+            own.insert(own.end(), &normals[3 * i], &normals[3 * i] + 3);
+            numbers.push_back(static_cast<std::uint32_t>(numbers.size()));
+        }
+        return mesh(own, numbers);
+    }
+};
+
+using PlainScene = RasterScene<float, false>;
+
+/// Two of the mesh, the nearer one clear, seen from both sides.
+PlainScene scene_of_squares(const MeshStorage& mesh) {
+    PlainScene scene;
+    scene.camera = camera_at<float>({3, 1, 5}, {0, 0, 0});
+    scene.materials = {phong<float>(0.8, 0.3, 0.2), phong<float>(0.1, 0.2, 0.9), phong<float>(0.3, 0.3, 0.1)};
+    scene.materials[2].transmit.value = {0.6F, 0.5F, 0.4F};
+    scene.point_lights = {{.position = {3, 4, 5}}, {.position = {-3, 1, -5}}};
+    scene.meshes = {mesh.data()};
+    Affine<float> map;
+    map.m[0][0] = -1.2F; // mirrored
+    map.m[1][1] = 0.9F;
+    map.m[1][2] = 0.4F;
+    scene.add(Placed<Mesh<float>, float>{{0}, map, inverse(map), {0, {0, 1}}});
+    map.m[0][0] = 0.5F;
+    map.m[2][3] = 1.5F;
+    scene.add(Placed<Mesh<float>, float>{{0}, map, inverse(map), {1, {2, 2}}});
+    return scene;
+}
+
+TEST(Raster, LightsSharedVerticesOnce) {
+    const WavySquare square;
+    const MeshStorage shared = square.mesh(square.normals, square.indices), apart = square.mesh_of_corners();
+    const PlainScene scene = scene_of_squares(shared), other = scene_of_squares(apart);
+    const RenderRequest wanted = request(200, 150, RasterShading::gouraud);
+    using Lane = WidestLane<float>;
+    const auto lit = [&](const PlainScene& s) {
+        const RasterModel<float> model = raster_model(s, wanted.settings);
+        raster::VertexLights<PlainScene, Lane> lights(s, model);
+        raster::Bin<float> bin;
+        bin.fronts_of = {static_cast<std::uint32_t>(square.indices.size() / 6), 0};
+        lights.update({s.camera, wanted.settings}, {bin}, RasterShading::gouraud, 1);
+        return std::pair{lights.has(model.surfaces[0]), lights.has(model.surfaces[1])};
+    };
+    EXPECT_EQ(lit(scene), (std::pair{true, false})); // by how much is seen of them
+    EXPECT_EQ(lit(other), (std::pair{false, false}));
+    EXPECT_EQ(draw_with<Lane>(scene, wanted).pixels, draw_with<Lane>(other, wanted).pixels);
+}
+
+TEST(Raster, SharesNoVerticesOfNormalsAtSeveralPlaces) {
+    const WavySquare square;
+    const RasterSettings gouraud = request(1, 1, RasterShading::gouraud).settings.raster;
+    RenderSettings settings = request(1, 1).settings;
+    settings.raster = gouraud;
+    const auto vertices = [&](const MeshStorage& mesh) {
+        const PlainScene scene = scene_of_squares(mesh);
+        return raster_model(scene, settings).mesh_vertices.at(0).positions.size();
+    };
+    EXPECT_EQ(vertices(square.mesh(square.normals, square.indices)), square.normals.size());
+    const std::vector<std::uint32_t> one_normal(square.indices.size(), 0);
+    EXPECT_EQ(vertices(square.mesh(square.normals, one_normal)), 0U);
+    std::vector<float> none = square.normals;
+    std::fill(none.begin(), none.begin() + 3, 0.0F);
+    EXPECT_EQ(vertices(square.mesh(none, square.indices)), 0U);
 }
 
 TEST(Raster, TellsWhatPixelsShow) {

@@ -27,7 +27,7 @@ TEST(BoxAverage, IsTheMeanOfEachBlock) {
     const Image average = box_average(image, 2);
     EXPECT_EQ(average.width, 2);
     EXPECT_EQ(average.height, 1);
-    EXPECT_EQ(average.pixels, (std::vector<float>{3.5, 35}));
+    EXPECT_EQ(average.pixels, (runtime::Pixels{3.5, 35}));
 }
 
 TEST(BoxAverage, KeepsChannelsApart) {
@@ -36,7 +36,7 @@ TEST(BoxAverage, KeepsChannelsApart) {
         image.pixels[3 * i] = 1;
         image.pixels[3 * i + 2] = static_cast<float>(i);
     }
-    EXPECT_EQ(box_average(image, 3).pixels, (std::vector<float>{1, 0, 4}));
+    EXPECT_EQ(box_average(image, 3).pixels, (runtime::Pixels{1, 0, 4}));
     EXPECT_EQ(box_average(image, 1).pixels, image.pixels);
 }
 
@@ -87,14 +87,14 @@ TEST(DifferenceImage, IsAbsoluteAndAmplified) {
     Image b(1, 1);
     a.pixels = {1, 2, 3};
     b.pixels = {1.5, 1, 3};
-    EXPECT_EQ(difference_image(a, b, 10).pixels, (std::vector<float>{5, 10, 0}));
+    EXPECT_EQ(difference_image(a, b, 10).pixels, (runtime::Pixels{5, 10, 0}));
     EXPECT_THROW(difference_image(a, Image(1, 2), 1), CompareError);
 }
 
 TEST(InColor, RepeatsGreyThreeTimes) {
     Image grey(2, 1, 1);
     grey.pixels = {1, 2};
-    EXPECT_EQ(in_color(grey).pixels, (std::vector<float>{1, 1, 1, 2, 2, 2}));
+    EXPECT_EQ(in_color(grey).pixels, (runtime::Pixels{1, 1, 1, 2, 2, 2}));
     EXPECT_THROW(in_color(Image(1, 1, 4)), CompareError);
 }
 

@@ -202,8 +202,8 @@ TEST(Shrunk, AveragesOrKeepsTheMaximumAndLeavesSmallImagesAlone) {
     image.at(1, 1)[0] = 4;
     image.at(4, 2)[0] = 2;
     EXPECT_EQ(shrunk(image, 5, Shrink::average).pixels, image.pixels);
-    EXPECT_EQ(shrunk(image, 3, Shrink::average).pixels, (std::vector<float>{1, 0, 0, 0, 0, 2}));
-    EXPECT_EQ(shrunk(image, 3, Shrink::maximum).pixels, (std::vector<float>{4, 0, 0, 0, 0, 2}));
+    EXPECT_EQ(shrunk(image, 3, Shrink::average).pixels, (runtime::Pixels{1, 0, 0, 0, 0, 2}));
+    EXPECT_EQ(shrunk(image, 3, Shrink::maximum).pixels, (runtime::Pixels{4, 0, 0, 0, 0, 2}));
     image.at(0, 0)[0] = std::numeric_limits<float>::quiet_NaN();
     EXPECT_EQ(shrunk(image, 5, Shrink::maximum).pixels[0], 1) << "what is not finite shows as white";
 }

@@ -123,7 +123,7 @@ TEST_F(ImageFile, PngClampsAndTurnsNanIntoBlack) {
     image.pixels = {-1, 2, std::numeric_limits<float>::quiet_NaN(), infinity, -infinity};
     for (const int bits : {8, 16}) {
         write_image(path("a.png"), image, {.bits = bits});
-        EXPECT_EQ(read_image(path("a.png")).pixels, (std::vector<float>{0, 1, 0, 1, 0}));
+        EXPECT_EQ(read_image(path("a.png")).pixels, (runtime::Pixels{0, 1, 0, 1, 0}));
     }
 }
 
