@@ -1,26 +1,13 @@
 #pragma once
 
+#include "runtime/picture_allocator.h"
+
 #include <cstddef>
-#include <new>
 #include <vector>
 
 namespace scc::runtime {
 
-/// From the start of a cache line on, so that rows of pixels are written by whole lines.
-template <class T>
-struct CacheLineAllocator {
-    using value_type = T;
-    static constexpr std::align_val_t line{64};
-
-    CacheLineAllocator() = default;
-    template <class U>
-    CacheLineAllocator(const CacheLineAllocator<U>&) {}
-    T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), line)); }
-    void deallocate(T* p, std::size_t n) { ::operator delete(p, n * sizeof(T), line); }
-    friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
-};
-
-using Pixels = std::vector<float, CacheLineAllocator<float>>;
+using Pixels = std::vector<float, PictureAllocator<float>>;
 
 /// A picture of `channels` floats per pixel, linear light, rows from the top.
 struct Image {
