@@ -43,9 +43,7 @@ Account account(const Shape&, bool mirror, bool smooth, bool pattern) {
                 "radius of up to 500",
                 0.004};
     } else if constexpr (std::is_same_v<Shape, Quadric<double>>) {
-        return {Fidelity::dropped, "Blender has no quadrics, and a mesh of it is not made yet"};
-    } else if constexpr (std::is_same_v<Shape, Csg<double>>) {
-        return {Fidelity::dropped, "a mesh is part of it, and a mesh of the whole is not made yet"};
+        return {Fidelity::dropped, "Blender has no quadrics, and one without end has no mesh"};
     } else if constexpr (std::is_same_v<Shape, Disc<double>>) {
         return {Fidelity::approximated, "a polygon; bound of its rim in pixels", 0.004};
     } else if constexpr (std::is_same_v<Shape, Plane<double>>) {
@@ -128,34 +126,49 @@ private:
 
     void record(const ir::Object& object, const BlenderSolid& solid) {
         const auto* csg = std::get_if<runtime::Csg<double>>(&object.shape);
+        const auto name_of = []<class Shape>(const Shape&) { return std::string(Shape::name); };
         const std::string word = csg != nullptr ? std::string(ir::csg_word(scene_.csg_nodes[csg->root].op))
-                                                : std::string(runtime::Implicit<double>::name);
+                                                : std::visit(name_of, object.shape);
+        std::size_t triangles = 0, parts = 0, uncertain = 0;
+        double deviation = 6e-8 * needs_.extent; // rounding of positions
+        std::vector<BlenderFace> faces;
+        for_each_part(solid, [&](const BlenderSolid& part) {
+            triangles += part.slots.size();
+            uncertain += part.uncertain;
+            deviation = std::max(deviation, part.deviation);
+            faces.insert(faces.end(), part.faces.begin(), part.faces.end());
+            ++parts;
+        });
+        const std::string meshes =
+            solid.is_part
+                ? fmt::format("Blender's exact Boolean of {} closed meshes, {} triangles", parts, triangles)
+                : fmt::format("a closed mesh of {} triangles", triangles);
         std::string how =
-            fmt::format("a closed mesh of {} triangles with exact normals; {}bound: distance of "
-                        "the mesh from the surface",
-                        solid.slots.size(),
-                        has_formula(solid) ? "hits exact, computed in the "
-                                             "material; "
-                                           : "");
-        if (solid.uncertain > 0) {
-            how += fmt::format("; {} places too small to tell whether there is more", solid.uncertain);
+            fmt::format("{} with exact normals; {}bound: distance of the mesh from the surface", meshes,
+                        has_formula(faces) ? "hits exact, computed in the material; " : "");
+        const bool mirrors = std::any_of(faces.begin(), faces.end(), [&](const BlenderFace& face) {
+            return reflects(face.sides.front) || reflects(face.sides.back);
+        });
+        if (solid.is_part && mirrors) {
+            how += "; where normals are interpolated, Cycles bends mirror rays that would enter the surface";
         }
-        const double rounding = 6e-8 * needs_.extent; // of positions
-        add({Fidelity::approximated, std::move(how), std::max(solid.deviation, rounding)}, word, object.path,
-            object.span);
+        if (uncertain > 0) {
+            how += fmt::format("; {} places too small to tell whether there is more", uncertain);
+        }
+        add({Fidelity::approximated, std::move(how), deviation}, word, object.path, object.span);
         ledger_.back().is_refined_mesh = true;
         const bool is_placed = !(object.world_from_object == runtime::Affine<double>{});
         if (is_placed) {
             record_transform(object);
         }
-        if (std::any_of(solid.faces.begin(), solid.faces.end(), [&](const BlenderFace& face) {
+        if (std::any_of(faces.begin(), faces.end(), [&](const BlenderFace& face) {
                 return reads_uv(face.sides.front) || reads_uv(face.sides.back);
             })) {
             add({Fidelity::dropped, "the mesh of a solid has no coordinates on its surface"}, "uv",
                 object.path, object.span);
         }
         const auto is_two_sided = [](const BlenderFace& face) { return face.sides.front != face.sides.back; };
-        if (std::any_of(solid.faces.begin(), solid.faces.end(), is_two_sided)) {
+        if (std::any_of(faces.begin(), faces.end(), is_two_sided)) {
             record_sides(object);
         }
     }
@@ -166,8 +179,8 @@ private:
                    scene_.functions[static_cast<std::size_t>(index)].reads(ir::Input::uv_x, ir::Input::uv_y);
         });
     }
-    static bool has_formula(const BlenderSolid& solid) {
-        return std::any_of(solid.faces.begin(), solid.faces.end(), [](const BlenderFace& face) {
+    static bool has_formula(const std::vector<BlenderFace>& faces) {
+        return std::any_of(faces.begin(), faces.end(), [](const BlenderFace& face) {
             return face.formula != BlenderFace::Formula::none;
         });
     }

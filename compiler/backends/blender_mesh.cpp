@@ -123,7 +123,11 @@ std::string base64(std::string_view bytes) {
 }
 
 bool needs_packing(const ir::Scene& scene, const BlenderNeeds& needs) {
-    const auto is_long_solid = [](const auto& entry) { return is_long(entry.second.mesh); };
+    const auto is_long_solid = [](const auto& entry) {
+        bool result = false;
+        for_each_part(entry.second, [&](const BlenderSolid& part) { result = result || is_long(part.mesh); });
+        return result;
+    };
     if (!needs.images.empty() || std::any_of(needs.solids.begin(), needs.solids.end(), is_long_solid)) {
         return true;
     }

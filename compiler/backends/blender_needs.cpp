@@ -206,6 +206,13 @@ private:
             want("round");
             want("quadric");
             break;
+        case Formula::ring:
+            want("ring");
+            break;
+        case Formula::quadric:
+            want("any_quadric");
+            want("quadric");
+            break;
         case Formula::field:
             want("field");
             needs_.fields[static_cast<std::size_t>(face.field)] = true;
@@ -267,17 +274,23 @@ private:
             return; // dropped
         }
         want("solid");
-        want("flat");
-        for (const BlenderFace& face : solid->second.faces) {
-            add(face.sides);
-            want_formula(face);
+        const bool is_cut = solid->second.is_part;
+        want(is_cut ? "smooth" : "flat");
+        if (is_cut) {
+            want("boolean");
         }
+        for_each_part(solid->second, [&](const BlenderSolid& part) {
+            for (const BlenderFace& face : part.faces) {
+                add(face.sides);
+                want_formula(face);
+            }
+        });
     }
     void add(const ir::Object& object, const runtime::Torus<double>&) {
         want("torus");
         add_curved(object);
     }
-    void add(const ir::Object&, const runtime::Quadric<double>&) {} // dropped
+    void add(const ir::Object& object, const runtime::Quadric<double>&) { add_solid(object); }
     void add(const ir::Object& object, const runtime::Triangle<double>&) {
         want("triangle");
         want(is_smooth(object.shape, scene_) ? "smooth" : "flat");

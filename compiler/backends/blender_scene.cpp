@@ -274,7 +274,7 @@ private:
         out_.line("SOLIDS = {{");
         out_.indent();
         for (const auto& [path, solid] : needs_.solids) {
-            write_solid(out_, solid);
+            for_each_part(solid, [&](const BlenderSolid& part) { write_solid(out_, part); });
         }
         out_.dedent();
         out_.line("}}");
@@ -354,18 +354,32 @@ private:
     std::string faces(const BlenderSolid& solid) const {
         std::string list;
         for (const BlenderFace& face : solid.faces) {
-            list += (list.empty() ? "" : ", ") + fmt::format("dict({})", described(face, solid.deviation));
+            list += (list.empty() ? "" : ", ") + fmt::format("dict({})", described(face, solid));
         }
-        return fmt::format("faces=[{}]", list);
+        return fmt::format("faces=[{}]", list) + (solid.is_part ? cuts(solid) : "");
     }
-    std::string described(const BlenderFace& face, double deviation) const {
+    /// Also none: Blender makes such solids otherwise.
+    std::string cuts(const BlenderSolid& solid) const {
+        std::string list;
+        for (const BlenderCut& cut : solid.cuts) {
+            list += fmt::format("({}, dict(type=\"solid\", name={}, {})), ", python(operation(cut.op)),
+                                python(cut.solid.mesh.name), faces(cut.solid));
+        }
+        return fmt::format(", cuts=[{}]", list.substr(0, list.empty() ? 0 : list.size() - 2));
+    }
+    static std::string operation(runtime::CsgOp op) {
+        return op == runtime::CsgOp::unite       ? "UNION"
+               : op == runtime::CsgOp::intersect ? "INTERSECT"
+                                                 : "DIFFERENCE";
+    }
+    std::string described(const BlenderFace& face, const BlenderSolid& solid) const {
         using Formula = BlenderFace::Formula;
         std::string text = materials(face.sides);
         if (!(face.member_from_world == runtime::Affine<double>{})) {
             text += ", member=" + python(face.member_from_world);
         }
         if (face.formula == Formula::none) {
-            return "kind=\"face\", " + text;
+            return fmt::format("kind=\"{}\", {}", solid.is_part ? "part" : "face", text);
         }
         text += ", frame=" + python(face.q_from_world);
         if (face.inverted) {
@@ -374,18 +388,29 @@ private:
         if (face.formula == Formula::field) {
             return fmt::format("kind=\"field\", field=\"{}\", reach={}, {}",
                                field_keys_[static_cast<std::size_t>(face.field)],
-                               python(steps_from_mesh * deviation), text);
+                               python(steps_from_mesh * solid.deviation), text);
         }
-        return fmt::format("kind=\"{}\", radius=({}, {}), {}",
-                           face.formula == Formula::ball ? "ball" : "round", python(face.radius),
-                           python(face.slope), text);
+        if (face.formula == Formula::quadric) {
+            const runtime::Quadric<double>& q = face.quadric;
+            return fmt::format("kind=\"quadric\", squares={}, products={}, linear={}, constant={}, {}",
+                               python(q.squares), python(q.products), python(q.linear), python(q.constant),
+                               text);
+        }
+        const std::string_view kind = face.formula == Formula::ball    ? "ball"
+                                      : face.formula == Formula::round ? "round"
+                                                                       : "ring";
+        if (face.formula == Formula::ring) {
+            text += ", reach=" + python(steps_from_mesh * solid.deviation);
+        }
+        return fmt::format("kind=\"{}\", radius=({}, {}), {}", kind, python(face.radius), python(face.slope),
+                           text);
     }
     /// `tube`: its radius as a part of the circle's.
     static std::string described(const runtime::Torus<double>& t) {
         return fmt::format("type=\"torus\", center={}, axis={}, major={}, tube={}", python(t.center),
                            python(t.axis), python(t.major), python(t.minor / t.major));
     }
-    static std::string described(const runtime::Quadric<double>&) { return ""; } // dropped
+    static std::string described(const runtime::Quadric<double>&) { return ""; } // the same
     std::string described(const runtime::Mesh<double>& m) const {
         return fmt::format("type=\"mesh\", mesh={}", python(scene_.meshes[m.mesh].name));
     }

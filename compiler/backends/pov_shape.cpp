@@ -64,12 +64,24 @@ struct ToPov {
     }
     PovShape operator()(const runtime::Quadric<double>& q) const {
         const double k = placement.shape_scale;
-        const Vec3<double> linear = k * q.linear;
+        const double unit = unit_of(q, k);
+        const auto scaled = [&](const Vec3<double>& v, double by) { return pov_vector(unit * by * v); };
         // The products in the order xy, xz, yz.
         return {"quadric",
-                {fmt::format("{}, <{}, {}, {}>, {}, {}", pov_vector(q.squares), number(q.products.x),
-                             number(q.products.z), number(q.products.y), pov_vector(linear),
-                             number(q.constant * k * k))}};
+                {fmt::format("{}, {}, {}, {}", scaled(q.squares, 1),
+                             scaled({q.products.x, q.products.z, q.products.y}, 1), scaled(q.linear, k),
+                             number(unit * q.constant * k * k))}};
+    }
+    /// A factor for all numbers. POV-Ray's bounding boxes of hyperboloids in intersections, which it sees
+    /// from their middle, take the constant for -1.
+    static double unit_of(const runtime::Quadric<double>& q, double k) {
+        double constant = q.constant;
+        for (const auto& [square, linear] :
+             {std::pair{q.squares.x, q.linear.x}, {q.squares.y, q.linear.y}, {q.squares.z, q.linear.z}}) {
+            constant -= square == 0 ? 0 : linear * linear / (4 * square);
+        }
+        const double unit = -1 / (constant * k * k);
+        return constant < 0 && std::isfinite(unit) ? unit : 1;
     }
     PovShape operator()(const runtime::Triangle<double>& t) const { return t.smooth ? smooth(t) : flat(t); }
     PovShape operator()(const runtime::Csg<double>&) const { return {}; } // written by its members

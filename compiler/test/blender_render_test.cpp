@@ -275,8 +275,103 @@ implicit {
   material = striped
   transform = scale(1, 1.2, 0.8) then rotate_z(30deg) then translate(1.5, 0.4, 0.3)
 }
+quadric {
+  squares = (2, 3, 1)
+  products = (0.3, 0, 0.4)
+  linear = (0.1, 0, 0.2)
+  constant = -0.2
+  material = striped
+  transform = shear then translate(0, 0, 2)
+}
 plane { normal = (0, 1, 0), offset = -1, material = phong { diffuse = rgb(0.5, 0.5, 0.5) } })")),
-              12); // the outlines of meshes
+              14); // the outlines of meshes
+}
+
+/// A closed mesh with normals at its vertices, from a box or a ball.
+ir::Mesh bent_box(bool is_smooth) {
+    ir::MeshArrays mesh;
+    constexpr int n = 4;
+    const auto vertex = [&](const runtime::Vec3<float>& p) { // one for each place
+        const runtime::Vec3<float> place = is_smooth ? normalize(p) : p;
+        for (std::uint32_t i = 0; 3 * i < mesh.positions.size(); ++i) {
+            const float* const q = &mesh.positions[3 * i];
+            if (std::abs(q[0] - place.x) + std::abs(q[1] - place.y) + std::abs(q[2] - place.z) < 1e-4F) {
+                return i;
+            }
+        }
+        mesh.positions.insert(mesh.positions.end(), {place.x, place.y, place.z});
+        return static_cast<std::uint32_t>(mesh.positions.size() / 3 - 1);
+    };
+    for (int face = 0; face < 6; ++face) {
+        const float side = face < 3 ? 1.0F : -1.0F;
+        for (int i = 0; i < n * n; ++i) {
+            const auto at = [&](int column, int row) {
+                const float u = 2.0F * static_cast<float>(column) / n - 1,
+                            v = (2.0F * static_cast<float>(row) / n - 1) * side;
+                return vertex(face % 3 == 0   ? runtime::Vec3<float>{side, u, v}
+                              : face % 3 == 1 ? runtime::Vec3<float>{v, side, u}
+                                              : runtime::Vec3<float>{u, v, side});
+            };
+            const int column = i % n, row = i / n;
+            const std::array<std::uint32_t, 4> corner{at(column, row), at(column + 1, row),
+                                                      at(column + 1, row + 1), at(column, row + 1)};
+            for (const std::size_t k : {0, 1, 2, 0, 2, 3}) {
+                mesh.indices.push_back(corner[k]);
+            }
+        }
+    }
+    if (is_smooth) {
+        mesh.normals = mesh.positions;
+        mesh.normal_indices = mesh.indices;
+    }
+    return ir::make_mesh(is_smooth ? "ball" : "box", std::move(mesh));
+}
+
+/// Nested, mirrored, cut by what has no end, with formulas and normals of their own. Boxes and balls of size
+/// 1 stand for the meshes.
+TEST_F(BlenderRender, PutsSolidsWithMeshesTogetherAsWeDo) {
+    ir::Scene scene = scene_of(R"(
+perspective_camera { eye = (3, 3.2, 6.6), target = (0, 0.2, 0), fov_y = 34deg }
+point_light { position = (3, 5, 3), color = rgb(0.9, 0.85, 0.8) }
+let red = phong { diffuse = rgb(0.8, 0.2, 0.1), specular = rgb(0.3, 0.3, 0.3) }
+let green = phong { diffuse = rgb(0.1, 0.7, 0.2) }
+let blue = phong { diffuse = rgb(0.1, 0.2, 0.9) }
+fn stripes(s: surface) -> color = rgb(0.5 + 0.4 * sin(5 * s.p.x), abs(s.n.y), 0.3)
+let striped = phong { diffuse = stripes }
+difference {
+  transform = scale(-1, 1, 1) then rotate_y(30deg) then translate(-1.3, 0, 0)
+  union {
+    box { material = striped, transform = scale(0.8) }
+    torus { major = 0.8, minor = 0.2, material = green }
+    intersection {
+      sphere { material = red, transform = scale(0.7) then translate(0, 0.9, 0) }
+      plane { normal = (0.1, 1, 0), offset = 1.4, material = blue }
+    }
+  }
+  difference {
+    sphere { center = (0.5, 0.5, 0.8), radius = 0.6, material = blue }
+    box { transform = scale(0.2) then translate(0.4, 0.3, 0.5), material = green }
+  }
+}
+intersection {
+  transform = translate(1.6, 0, 0)
+  quadric { squares = (1, -0.5, 1), constant = -0.4, material = green }
+  box { transform = rotate_x(20deg), material = two_sided { front = striped, back = blue } }
+  sphere { material = red, transform = scale(1.2) }
+}
+plane { normal = (0, 1, 0), offset = -1.2, material = phong { diffuse = rgb(0.5, 0.5, 0.5) } })");
+    scene.meshes = {bent_box(false), bent_box(true)};
+    for (ir::Object& member : scene.members) {
+        if (const auto* ball = std::get_if<runtime::Sphere<double>>(&member.shape)) {
+            if (ball->radius == 1) {
+                member.shape = runtime::Mesh<double>{1};
+            }
+        } else if (std::holds_alternative<runtime::Box<double>>(member.shape)) {
+            member.shape = runtime::Mesh<double>{0};
+        }
+    }
+    derive_traits(scene);
+    EXPECT_LE(differing_pixels(scene), 14); // outlines
 }
 
 TEST_F(BlenderRender, ShinesFromConesAndRectanglesAsWeDo) {

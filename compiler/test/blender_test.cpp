@@ -227,6 +227,73 @@ TEST(BlenderSolids, AreMeshesWithAFaceForEachFormulaAndMaterial) {
     EXPECT_EQ(script.find("def sphere_hit"), std::string::npos) << "what is not needed is left out";
 }
 
+TEST(BlenderSolids, HaveFormulasOfRingsAndQuadrics) {
+    const ir::Scene scene = scene_of(std::string(lamp) + R"(
+quadric { name = "egg", squares = (2, 3, 4), linear = (0.5, 0, 0), transform = scale(2) }
+intersection { name = "cut", torus { major = 0.8, minor = 0.2 }, box { } }
+quadric { name = "endless", squares = (1, 0, 1) }
+)");
+    const BlenderSolids made = blender_solids(scene);
+    ASSERT_EQ(made.size(), 2U);
+    ASSERT_EQ(made.at("egg").faces.size(), 1U);
+    EXPECT_EQ(made.at("egg").faces[0].formula, BlenderFace::Formula::quadric);
+    EXPECT_EQ(made.at("egg").faces[0].quadric.squares.z, 4);
+    EXPECT_EQ(made.at("egg").faces[0].quadric.linear.x, 0.5);
+    EXPECT_EQ(made.at("cut").faces[0].formula, BlenderFace::Formula::ring);
+    Ledger ledger;
+    const std::string script = emit_blender(scene, ledger);
+    EXPECT_NE(script.find("kind=\"ring\", radius=(0.8, 0.2)"), std::string::npos);
+    EXPECT_NE(script.find("squares=(2.0, 3.0, 4.0), products=(0.0, 0.0, 0.0), linear=(0.5, 0.0, 0.0)"),
+              std::string::npos);
+    const auto dropped = std::find_if(ledger.begin(), ledger.end(),
+                                      [](const auto& e) { return e.fidelity == Fidelity::dropped; });
+    ASSERT_NE(dropped, ledger.end());
+    EXPECT_EQ(dropped->subject, "endless");
+}
+
+TEST(BlenderSolids, AreMadeByBlenderWhereMeshesAreInThem) {
+    ir::Scene scene = scene_of(std::string(lamp) + R"(
+difference {
+  name = "cut"
+  box { transform = scale(-2, 1, 1) }
+  union { sphere { center = (1, 0, 0) }, torus { } }
+  intersection { box { transform = scale(0.5) }, plane { } }
+}
+)");
+    scene.meshes.push_back(ir::make_mesh(
+        "tetrahedron",
+        {{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, {}, {}, {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3}, {}, {}}));
+    for (ir::Object& member : scene.members) {
+        if (std::holds_alternative<runtime::Box<double>>(member.shape)) {
+            member.shape = runtime::Mesh<double>{0};
+        }
+    }
+    derive_traits(scene);
+    const BlenderSolids made = blender_solids(scene);
+    const BlenderSolid& base = made.at("cut");
+    EXPECT_TRUE(base.is_part);
+    EXPECT_EQ(base.slots.size(), 4U);
+    EXPECT_EQ(std::vector(base.mesh.indices.begin(), base.mesh.indices.begin() + 3),
+              (std::vector<std::uint32_t>{0, 1, 2}))
+        << "a mirrored mesh is turned over";
+    ASSERT_EQ(base.cuts.size(), 2U); // the union has no meshes and is one
+    EXPECT_EQ(base.cuts[0].op, runtime::CsgOp::subtract);
+    EXPECT_TRUE(base.cuts[0].solid.cuts.empty());
+    for (const BlenderFace& face : base.cuts[0].solid.faces) {
+        EXPECT_TRUE(face.inverted);
+    }
+    const BlenderSolid& other = base.cuts[1].solid;
+    ASSERT_EQ(other.cuts.size(), 1U);
+    EXPECT_EQ(other.cuts[0].op, runtime::CsgOp::intersect);
+    EXPECT_GT(other.cuts[0].solid.slots.size(), 4U) << "half of space has an end there";
+    const std::string script = script_of(scene);
+    EXPECT_NE(script.find("cuts=[(\"DIFFERENCE\", dict(type=\"solid\", name=\"cut part 2\""),
+              std::string::npos);
+    EXPECT_NE(script.find("(\"INTERSECT\", dict(type=\"solid\", name=\"cut part 4\""), std::string::npos);
+    EXPECT_EQ(script.find("normals_split_custom_set(normals"),
+              script.rfind("normals_split_custom_set(normals"));
+}
+
 TEST(BlenderSolids, ComeAsTheMeshIsWhereNodesCannotCalculateTheField) {
     const ir::Scene scene = scene_of(
         "implicit { field = fn(p: vec3) = dot(p, p) - 0.5 + 0.2 * noise(p * 3), within = sphere { } }");

@@ -244,6 +244,25 @@ union { sphere { center = (0, 0.4, 2.5), radius = 0.4, material = red }, box { m
     expect_same_picture(room + camera + lamp + sides);
 }
 
+/// Whose bounding box POV-Ray gets right only where their constant is -1.
+TEST_F(PovRender, CutsHyperboloids) {
+    expect_same_picture(room + camera + lamp + R"(
+let red = phong { diffuse = rgb(0.7, 0.3, 0.2), specular = rgb(0.3, 0.1, 0.2), shininess = 20 }
+intersection {
+  material = red
+  transform = translate(-1.2, 1, 0)
+  quadric { squares = (1, -0.5, 1), constant = -0.4 }
+  box { min = (-1.2, -0.9, -1.2), max = (1.2, 0.9, 1.2) }
+}
+intersection {
+  material = red
+  transform = translate(1.4, 1, 0)
+  box { min = (-0.8, -0.8, -0.8), max = (0.8, 0.8, 0.8) }
+  quadric { squares = (4, 6, -3), linear = (0.1, 0, 4), constant = -1.5 }
+}
+)");
+}
+
 TEST_F(PovRender, ShowsSolidsFromWithin) {
     expect_same_picture(room + lamp + R"(
 perspective_camera { eye = (0, 1, 0), target = (0.3, 0.9, -1), fov_y = 70deg }

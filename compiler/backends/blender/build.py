@@ -186,16 +186,27 @@ def plane_kinds(o):
 
 
 #: end
-SINGLE = ("plane", "face", "ball", "round", "field")  # kinds with numbers of one object in their nodes
+SINGLE = ("plane", "face", "part", "ball", "round", "ring", "quadric", "field")  # kinds with numbers of one object in their nodes
 HITS = {
     #: solid
+    #: flat
     "face": face_hit,
+    #: end
+    #: boolean
+    "part": part_hit,
+    #: end
     #: end
     #: ball
     "ball": ball_hit,
     #: end
     #: round
     "round": round_hit,
+    #: end
+    #: ring
+    "ring": ring_hit,
+    #: end
+    #: any_quadric
+    "quadric": quadric_hit,
     #: end
     #: field
     "field": field_hit,
@@ -277,7 +288,7 @@ def add_objects(collection, materials):
             empties.append(new_object(collection, NAME + " origin", None))
         return empties[0]
 
-    for o in OBJECTS:
+    def add(o):
         shape = SHAPES[o["type"]]
         slots = tuple(materials.get(kind, surface) for kind, surface in shape.surfaces(o))
         key = (o["type"], shape.shared(o), *slots)
@@ -305,6 +316,19 @@ def add_objects(collection, materials):
             #: end
         #: end
         place(ob, world[:3].tolist(), parent)
+        #: boolean
+        for operation, part in o.get("cuts", ()):
+            cutter = add(part)
+            cutter.hide_render = True
+            for material in cutter.data.materials:  # its faces have this object's first one otherwise
+                ob.data.materials.append(material)
+            modifier = ob.modifiers.new(short(part["name"]), "BOOLEAN")
+            modifier.operation, modifier.solver, modifier.object = operation, "EXACT", cutter
+        return ob
+        #: end
+
+    for o in OBJECTS:
+        add(o)
 
 
 #: window

@@ -266,9 +266,17 @@ def mesh_mesh(o):
 #: solid
 def solid_mesh(o):
     m = SOLIDS[o["name"]]
-    mesh = new_mesh(o["name"], np.reshape(m["points"], (-1, 3)), np.reshape(m["indices"], (-1, 3)), True, m["slots"])
+    points, faces = np.reshape(m["points"], (-1, 3)), np.reshape(m["indices"], (-1, 3))
+    normals = np.reshape(m["normals"], (-1, 3))[np.ravel(m["normal_indices"])]
+    #: boolean
+    if "cuts" in o:  # a Boolean interpolates attributes where it cuts, but not Blender's own normals
+        mesh = new_mesh(o["name"], points, faces, False, m["slots"])
+        set_normals(mesh, normals)
+        return mesh
+    #: end
+    mesh = new_mesh(o["name"], points, faces, True, m["slots"])
     mesh.use_auto_smooth, mesh.auto_smooth_angle = True, math.pi
-    mesh.normals_split_custom_set(np.reshape(m["normals"], (-1, 3))[np.ravel(m["normal_indices"])].tolist())
+    mesh.normals_split_custom_set(normals.tolist())
     return mesh
 
 

@@ -93,9 +93,8 @@ def by_rows(g, rows, point):
 
 #: end
 #: solid
-def face_hit(f):
-    """A face of a solid, where the mesh is hit."""
-    tree = flat_hit()
+def of_member(tree, f):
+    """A hit on a mesh in the world, with P as the solid's member has it."""
     tree.name = "scc hit on " + short(f["name"])
     if "member" in f:
         g = Graph(tree)
@@ -104,6 +103,20 @@ def face_hit(f):
     return tree
 
 
+#: flat
+def face_hit(f):
+    """A face of a solid, where the mesh is hit."""
+    return of_member(flat_hit(), f)
+
+
+#: end
+#: boolean
+def part_hit(f):
+    """The same of a solid that Blender makes, with the normals that the part had there."""
+    return of_member(smooth_hit(), f)
+
+
+#: end
 #: end
 #: formula
 def formula_hit(f, along, gradient):
@@ -130,6 +143,22 @@ def formula_hit(f, along, gradient):
 
 
 #: end
+#: field ring
+def newton_hit(f, field):
+    """By Newton's steps from the mesh, no farther than `reach`. `field(g, p)` gives the value and the gradient."""
+    def along(g, start, way):
+        t, p = 0.0, start
+        for _ in range(3):
+            value, gradient = field(g, p)
+            step = g.f("DIVIDE", value, g.v("DOT_PRODUCT", gradient, way))
+            t = g.f("MAXIMUM", g.f("MINIMUM", g.f("SUBTRACT", t, step), f["reach"]), -f["reach"])
+            p = g.v("ADD", start, g.v("SCALE", way, t))
+        return t
+
+    return formula_hit(f, along, lambda g, p: field(g, p)[1])
+
+
+#: end
 #: field
 @functools.lru_cache(maxsize=None)
 def field_group(name):
@@ -141,17 +170,26 @@ def field_group(name):
 
 
 def field_hit(f):
-    """By Newton's steps from the mesh, no farther than `reach`."""
-    def along(g, start, way):
-        t, p = 0.0, start
-        for _ in range(3):
-            field = g.group(field_group(f["field"]), p=p)
-            step = g.f("DIVIDE", field["Value"], g.v("DOT_PRODUCT", field["Gradient"], way))
-            t = g.f("MAXIMUM", g.f("MINIMUM", g.f("SUBTRACT", t, step), f["reach"]), -f["reach"])
-            p = g.v("ADD", start, g.v("SCALE", way, t))
-        return t
+    def field(g, p):
+        group = g.group(field_group(f["field"]), p=p)
+        return group["Value"], group["Gradient"]
 
-    return formula_hit(f, along, lambda g, p: g.group(field_group(f["field"]), p=p)["Gradient"])
+    return newton_hit(f, field)
+
+
+#: end
+#: ring
+def ring_hit(f):
+    """A tube around a circle about the z axis."""
+    circle, tube = f["radius"]
+
+    def field(g, p):
+        across = g.v("MULTIPLY", p, (1.0, 1.0, 0.0))
+        from_circle = g.v("SUBTRACT", p, g.v("SCALE", g.v("NORMALIZE", across), circle))
+        squared = g.v("DOT_PRODUCT", from_circle, from_circle)
+        return g.f("MULTIPLY", g.f("SUBTRACT", squared, tube * tube), 0.5), from_circle
+
+    return newton_hit(f, field)
 
 
 #: end
@@ -187,6 +225,34 @@ def round_hit(f):
 
     def gradient(g, p):
         return g.v("SUBTRACT", across(g, p), g.join(0.0, 0.0, g.f("MULTIPLY", radius(g, p), slope)))
+
+    return formula_hit(f, lambda g, p, d: nearest_root(g, *coefficients(g, p, d)), gradient)
+
+
+#: end
+#: any_quadric
+def quadric_hit(f):
+    """Where squares . (x^2, y^2, z^2) + products . (x y, y z, z x) + linear . p + constant is 0."""
+    products = f["products"]
+
+    def half_slope(g, p):
+        """Half the gradient of the terms of second degree."""
+        x, y, z = g.split(p)
+        mixed = g.join(g.f("MULTIPLY_ADD", y, products[0], g.f("MULTIPLY", z, products[2])),
+                       g.f("MULTIPLY_ADD", x, products[0], g.f("MULTIPLY", z, products[1])),
+                       g.f("MULTIPLY_ADD", y, products[1], g.f("MULTIPLY", x, products[2])))
+        return g.v("ADD", g.v("MULTIPLY", p, f["squares"]), g.v("SCALE", mixed, 0.5))
+
+    half_linear = tuple(x / 2 for x in f["linear"])
+
+    def gradient(g, p):
+        return g.v("ADD", half_slope(g, p), half_linear)
+
+    def coefficients(g, p, d):
+        slope = half_slope(g, p)
+        value = g.f("ADD", g.v("DOT_PRODUCT", g.v("ADD", slope, f["linear"]), p), f["constant"])
+        return (g.v("DOT_PRODUCT", half_slope(g, d), d),
+                g.v("DOT_PRODUCT", g.v("ADD", slope, half_linear), d), value)
 
     return formula_hit(f, lambda g, p, d: nearest_root(g, *coefficients(g, p, d)), gradient)
 
