@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
+#include <memory>
 #include <vector>
 
 namespace scc::compiler {
@@ -56,10 +56,43 @@ private:
             derived = applied(node);
             break;
         case ir::Node::Kind::image:
-            throw std::logic_error("the texels of an image have no formula"); // refused by with_gradient
+            derived = looked_up(node);
+            break;
         }
         nodes_.push_back(derived);
     }
+
+    /// Between the centres of two texels an image that is blended is linear along the axis: its slope is the
+    /// difference of what it is at these.
+    Derived looked_up(const ir::Node& node) {
+        const std::shared_ptr<const ir::Image>& image = function_.images[node.image];
+        const std::array<Derived, 2> uv{nodes_[node.operands[0]], nodes_[node.operands[1]]};
+        const auto look_up = [&](const Scalar& u, const Scalar& v) {
+            return Scalar{0, builder_.look_up(image, node.channel, node_of(u), node_of(v))};
+        };
+        Derived result{look_up(uv[0].value, uv[1].value)};
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+            const auto& slopes = uv[axis].slopes;
+            if (image->data.filter == runtime::Filter::nearest ||
+                std::all_of(slopes.begin(), slopes.end(), is_zero)) {
+                continue;
+            }
+            const double texels = axis == 0 ? image->data.width : image->data.height;
+            const Scalar before =
+                one(ScalarOp::floor, math_.apply(ScalarOp::sub, product({texels}, uv[axis].value), {0.5}));
+            const auto at_center = [&](double step) {
+                const Scalar center = quotient(sum(before, {step + 0.5}), {texels});
+                return axis == 0 ? look_up(center, uv[1].value) : look_up(uv[0].value, center);
+            };
+            const Scalar slope = product({texels}, difference(at_center(1), at_center(0)));
+            for (std::size_t i = 0; i < 3; ++i) {
+                result.slopes[i] = sum(result.slopes[i], product(slope, slopes[i]));
+            }
+        }
+        return result;
+    }
+
+    std::uint32_t node_of(const Scalar& x) { return x.is_constant() ? builder_.constant(x.value) : x.symbol; }
 
     Derived applied(const ir::Node& node) {
         const Derived a = nodes_[node.operands[0]], b = nodes_[node.operands[1]],
@@ -200,8 +233,7 @@ bool is_step(Op op) {
 std::optional<ir::Function> with_gradient(const ir::Function& function) {
     const bool has_unknown =
         std::any_of(function.nodes.begin(), function.nodes.end(), [](const ir::Node& node) {
-            return node.kind == ir::Node::Kind::image ||
-                   (node.kind == ir::Node::Kind::apply && node.op == Op::noise);
+            return node.kind == ir::Node::Kind::apply && node.op == Op::noise;
         });
     return has_unknown ? std::nullopt : std::optional(Differentiator(function).run());
 }

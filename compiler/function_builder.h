@@ -32,7 +32,13 @@ public:
 
     /// Records all operations of a function, of whose inputs input(which) are the nodes; returns its nodes.
     template <class Input>
-    std::vector<std::uint32_t> include(const ir::Function& function, Input&& input);
+    std::vector<std::uint32_t> include(const ir::Function& function, Input&& input) {
+        return include(function, input,
+                       [](std::size_t, const auto&) { return std::optional<std::uint32_t>(); });
+    }
+    /// Of operations, replaced(which, its operands) is taken instead if there is one.
+    template <class Input, class Replaced>
+    std::vector<std::uint32_t> include(const ir::Function& function, Input&& input, Replaced&& replaced);
 
     void locate(lang::Span span) override { place_ = span; }
 
@@ -54,8 +60,9 @@ private:
     std::map<Key, std::uint32_t> known_;
 };
 
-template <class Input>
-std::vector<std::uint32_t> FunctionBuilder::include(const ir::Function& function, Input&& input) {
+template <class Input, class Replaced>
+std::vector<std::uint32_t> FunctionBuilder::include(const ir::Function& function, Input&& input,
+                                                    Replaced&& replaced) {
     std::vector<std::uint32_t> moved;
     for (std::size_t i = 0; i < function.nodes.size(); ++i) {
         const ir::Node& node = function.nodes[i];
@@ -72,7 +79,11 @@ std::vector<std::uint32_t> FunctionBuilder::include(const ir::Function& function
             moved.push_back(input(node.input));
             break;
         case ir::Node::Kind::apply:
-            moved.push_back(apply(row(node.op).name, operands));
+            if (const std::optional<std::uint32_t> instead = replaced(i, operands)) {
+                moved.push_back(*instead);
+            } else {
+                moved.push_back(apply(row(node.op).name, operands));
+            }
             break;
         case ir::Node::Kind::image:
             moved.push_back(look_up(function.images[node.image], node.channel, operands[0], operands[1]));

@@ -5,6 +5,7 @@
 #include "compiler/backends/blender_mesh.h"
 #include "compiler/backends/blender_needs.h"
 #include "compiler/backends/blender_scene.h"
+#include "compiler/backends/lattices.h"
 #include "compiler/resolve_bumps.h"
 #include "compiler/resolve_uv.h"
 #include "compiler/writer.h"
@@ -44,14 +45,17 @@ import numpy as np
 
 std::string emit_blender(const ir::Scene& whole, Ledger& ledger) {
     std::optional<ir::Scene> resolved = whole.traits.uv ? std::optional(resolve_uv(whole)) : std::nullopt;
+    if (whole.traits.functions) {
+        resolved = with_lattices(resolved ? *resolved : whole);
+    }
     if (whole.traits.bump) {
         ResolvedBumps bumps = resolve_bumps(resolved ? *resolved : whole, BumpForm::world_slope);
         for (const std::uint32_t material : bumps.flat) {
             const ir::Material& flat = bumps.scene.materials[material];
             ledger.push_back(
                 {Fidelity::dropped, "phong bump", flat.name, flat.span,
-                 "its slope has no formula where it reads an image, `noise` or the coordinates of a "
-                 "mesh",
+                 "its slope has no formula where it reads the coordinates of a mesh or `noise` whose "
+                 "arguments have no bounds, or too wide ones",
                  0});
         }
         resolved = std::move(bumps.scene);

@@ -216,6 +216,7 @@ private:
         case Formula::field:
             want("field");
             needs_.fields[static_cast<std::size_t>(face.field)] = true;
+            add(*field_for_nodes(scene_, face.field));
             break;
         }
         want("formula");
@@ -343,8 +344,9 @@ private:
         }
         for (const std::shared_ptr<const ir::Image>& image : function.images) {
             want("image");
-            if (std::find(needs_.images.begin(), needs_.images.end(), image.get()) == needs_.images.end()) {
-                needs_.images.push_back(image.get());
+            if (std::none_of(needs_.images.begin(), needs_.images.end(),
+                             [&](const auto& other) { return other->key == image->key; })) {
+                needs_.images.push_back(image);
             }
         }
     }

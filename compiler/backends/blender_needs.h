@@ -6,6 +6,7 @@
 #include "compiler/ir/objects.h"
 #include "compiler/ir/scene.h"
 
+#include <memory>
 #include <vector>
 
 namespace scc::compiler {
@@ -18,9 +19,9 @@ struct BlenderNeeds {
     std::vector<bool> fields; ///< of the functions, those that are a solid's formula
     std::vector<bool> meshes;
     BlenderSolids solids;
-    std::vector<const ir::Image*> images; ///< of those functions, each once
-    BlenderPaths ways;                    ///< if some material lets light through
-    int bounces = 0;                      ///< mirror bounces that can be seen, or the most surfaces on a way
+    std::vector<std::shared_ptr<const ir::Image>> images; ///< of those functions, each once
+    BlenderPaths ways;                                    ///< if some material lets light through
+    int bounces = 0;    ///< mirror bounces that can be seen, or the most surfaces on a way
     double cut_off = 0; ///< of the radiance that arrives at the last bounce, what share later ones could add
     runtime::Vec3<double> center; ///< of what is bounded, the lights and the camera
     double extent = 1;            ///< their distance from `center` at most

@@ -148,9 +148,9 @@ private:
         Identifiers identifiers("");
         out_.line("IMAGES = {{");
         out_.indent();
-        for (const ir::Image* image : needs_.images) {
+        for (const auto& image : needs_.images) {
             const std::string key = identifiers.make(image->name);
-            image_keys_.emplace(image, key);
+            image_keys_.emplace(image->key, key);
             write_image(out_, *image, key);
         }
         out_.dedent();
@@ -167,11 +167,7 @@ private:
                 keys_[i] = identifiers.make(scene_.functions[i].name);
                 out_.blank();
                 out_.blank();
-                std::vector<std::string> images;
-                for (const std::shared_ptr<const ir::Image>& image : scene_.functions[i].images) {
-                    images.push_back(image_keys_.at(image.get()));
-                }
-                write_function(out_, scene_.functions[i], keys_[i], std::move(images));
+                write_function(out_, scene_.functions[i], keys_[i], images_of(scene_.functions[i]));
             }
         }
         out_.blank();
@@ -191,6 +187,14 @@ private:
         out_.line("}}");
     }
 
+    std::vector<std::string> images_of(const ir::Function& function) const {
+        std::vector<std::string> keys;
+        for (const std::shared_ptr<const ir::Image>& image : function.images) {
+            keys.push_back(image_keys_.at(image->key));
+        }
+        return keys;
+    }
+
     void write_fields() {
         if (!has("field")) {
             return;
@@ -203,7 +207,8 @@ private:
                 const std::string& key = field_keys_[i] = identifiers.make(scene_.functions[i].name);
                 out_.blank();
                 out_.blank();
-                write_function(out_, *field_for_nodes(scene_.functions[i]), key, {});
+                const ir::Function field = *field_for_nodes(scene_, static_cast<std::int32_t>(i));
+                write_function(out_, field, key, images_of(field));
                 table += fmt::format("{}\"{}\": {}", table.empty() ? "" : ", ", key, key);
             }
         }
@@ -418,9 +423,9 @@ private:
     Writer& out_;
     const ir::Scene& scene_;
     const BlenderNeeds& needs_;
-    std::map<const ir::Image*, std::string> image_keys_;
-    std::vector<std::string> keys_;       ///< of each function: its name in Python
-    std::vector<std::string> field_keys_; ///< of each field
+    std::map<std::string, std::string> image_keys_; ///< by the images' own
+    std::vector<std::string> keys_;                 ///< of each function: its name in Python
+    std::vector<std::string> field_keys_;           ///< of each field
 };
 
 } // namespace

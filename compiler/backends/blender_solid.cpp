@@ -1,6 +1,7 @@
 #include "compiler/backends/blender_solid.h"
 
 #include "compiler/backends/function_program.h"
+#include "compiler/backends/lattices.h"
 #include "compiler/backends/tables.h"
 #include "compiler/bounds.h"
 #include "compiler/derivative.h"
@@ -157,8 +158,7 @@ private:
         case Kind::field:
             break;
         }
-        return field_for_nodes(scene_.functions[static_cast<std::size_t>(surface.field)]) ? Formula::field
-                                                                                          : Formula::none;
+        return field_for_nodes(scene_, surface.field) ? Formula::field : Formula::none;
     }
     static Affine<double> frame(const SmoothSurface<double>& s) {
         Affine<double> map;
@@ -342,11 +342,9 @@ BlenderSolid make_surface(const ir::Scene& scene, const Scene& tables, const ir:
 
 } // namespace
 
-std::optional<ir::Function> field_for_nodes(const ir::Function& field) {
-    const bool is_random = std::any_of(field.nodes.begin(), field.nodes.end(), [](const ir::Node& node) {
-        return node.kind == ir::Node::Kind::apply && node.op == ir::Op::random;
-    });
-    std::optional<ir::Function> result = is_random ? std::nullopt : with_gradient(field);
+std::optional<ir::Function> field_for_nodes(const ir::Scene& scene, std::int32_t field) {
+    const ir::Function function = field_with_lattices(scene, field);
+    std::optional<ir::Function> result = has_lattice(function) ? std::nullopt : with_gradient(function);
     return result && result->nodes.size() <= most_nodes ? result : std::nullopt;
 }
 

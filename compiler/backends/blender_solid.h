@@ -59,8 +59,8 @@ void for_each_part(const BlenderSolid& solid, const F& f) {
     }
 }
 
-/// The field with its gradient, if Math nodes can calculate both.
-std::optional<ir::Function> field_for_nodes(const ir::Function& field);
+/// The field of implicit surfaces with its gradient, if Math nodes can calculate both.
+std::optional<ir::Function> field_for_nodes(const ir::Scene& scene, std::int32_t field);
 
 /// By the objects' paths.
 using BlenderSolids = std::map<std::string, BlenderSolid>;

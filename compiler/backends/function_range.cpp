@@ -54,4 +54,41 @@ bool is_truth(ir::Op op) {
     }
 }
 
+std::vector<bool> whole_nodes(const ir::Function& function) {
+    std::vector<bool> whole;
+    for (const ir::Node& node : function.nodes) {
+        bool is_whole = node.kind == ir::Node::Kind::constant && node.constant == std::floor(node.constant);
+        if (node.kind == ir::Node::Kind::apply) {
+            const auto operand = [&](std::size_t k) { return whole[node.operands[k]]; };
+            switch (node.op) {
+            case ir::Op::floor:
+            case ir::Op::ceil:
+                is_whole = true;
+                break;
+            case ir::Op::neg:
+            case ir::Op::abs:
+            case ir::Op::square:
+                is_whole = operand(0);
+                break;
+            case ir::Op::add:
+            case ir::Op::sub:
+            case ir::Op::mul:
+            case ir::Op::mod:
+            case ir::Op::min:
+            case ir::Op::max:
+                is_whole = operand(0) && operand(1);
+                break;
+            case ir::Op::select:
+                is_whole = operand(1) && operand(2);
+                break;
+            default:
+                is_whole = is_truth(node.op);
+                break;
+            }
+        }
+        whole.push_back(is_whole);
+    }
+    return whole;
+}
+
 } // namespace scc::compiler

@@ -23,6 +23,9 @@ using InputRanges = std::array<Range, ir::input_count>;
 /// programs.
 std::vector<Range> node_ranges(const ir::Function& function, const InputRanges& inputs);
 
+/// Which nodes give whole numbers only.
+std::vector<bool> whole_nodes(const ir::Function& function);
+
 /// Whether the operator's result is 1 or 0.
 bool is_truth(ir::Op op);
 

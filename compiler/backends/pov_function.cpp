@@ -149,44 +149,6 @@ double excess(const ir::Function& function, std::uint32_t node, const InputRange
     return std::min(largest, 1e30);
 }
 
-/// Which nodes give whole numbers only.
-std::vector<bool> are_whole(const ir::Function& function) {
-    std::vector<bool> whole;
-    for (const Node& node : function.nodes) {
-        bool is_whole = node.kind == Node::Kind::constant && node.constant == std::floor(node.constant);
-        if (node.kind == Node::Kind::apply) {
-            const auto operand = [&](std::size_t k) { return whole[node.operands[k]]; };
-            switch (node.op) {
-            case Op::floor:
-            case Op::ceil:
-                is_whole = true;
-                break;
-            case Op::neg:
-            case Op::abs:
-            case Op::square:
-                is_whole = operand(0);
-                break;
-            case Op::add:
-            case Op::sub:
-            case Op::mul:
-            case Op::mod:
-            case Op::min:
-            case Op::max:
-                is_whole = operand(0) && operand(1);
-                break;
-            case Op::select:
-                is_whole = operand(1) && operand(2);
-                break;
-            default:
-                is_whole = is_truth(node.op);
-                break;
-            }
-        }
-        whole.push_back(is_whole);
-    }
-    return whole;
-}
-
 std::string map_point(const runtime::Affine<double>& a) {
     static constexpr std::string_view axes[] = {"x", "y", "z"};
     std::string result;
@@ -226,7 +188,7 @@ const PovExpression::Words& PovFunctions::words(std::int32_t index) {
     for (const std::shared_ptr<const ir::Image>& image : function.images) {
         words->images.push_back(&images_.declare(*image));
     }
-    const std::vector<bool> whole = are_whole(function);
+    const std::vector<bool> whole = whole_nodes(function);
     std::vector<Range> ranges;
     for (std::uint32_t i = 0; i < function.nodes.size(); ++i) {
         const Node& node = function.nodes[i];

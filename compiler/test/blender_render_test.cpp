@@ -387,6 +387,25 @@ plane { })")),
               3);
 }
 
+/// Looked up in images, with the slopes of their formulas.
+TEST_F(BlenderRender, HasTheSameNoiseAsWeHave) {
+    EXPECT_LE(differing_pixels(scene_of(R"(
+perspective_camera { eye = (3, 3.2, 6.6), target = (0, 0.2, 0), fov_y = 34deg }
+point_light { position = (3, 5, 3) }
+fn marble(s: surface) -> color = rgb(0.9, 0.8, 0.6) * noise(s.p * 5) + rgb(0, 0, 0.3) * noise((2 * s.p.x, s.p.y))
+fn tiles(s: surface) -> color = rgb(random(floor(s.p.x * 4.1), floor(s.p.z * 4.1)), 0.5, random(floor(s.p.x * 4.1), 3, 7))
+sphere { center = (-1.2, 0, 0), material = phong { diffuse = marble, bump = fn(s: surface) = 0.03 * noise(s.p * 8) } }
+box { min = (0.5, -1.05, -1.05), max = (2, 0.1, 1.1), material = phong { diffuse = tiles } }
+implicit {
+  field = fn(p: vec3) = p.y - 0.3 * noise((p.x * 2, p.z * 2)) - 0.3
+  within = box { min = (-0.45, -0.45, -0.45), max = (0.45, 0.45, 0.45) }
+  material = phong { diffuse = marble }
+  transform = translate(1.2, 0.7, 0)
+}
+plane { normal = (0, 1, 0), offset = -1.2, material = phong { diffuse = rgb(0.5, 0.5, 0.5) } })")),
+              8);
+}
+
 TEST_F(BlenderRender, DrawsMeshesAsWeDo) {
     ir::Scene scene = scene_of(R"(
 perspective_camera { eye = (1, 2, 6), target = (0, 0, 0) }

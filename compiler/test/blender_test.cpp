@@ -295,8 +295,11 @@ difference {
 }
 
 TEST(BlenderSolids, ComeAsTheMeshIsWhereNodesCannotCalculateTheField) {
-    const ir::Scene scene = scene_of(
-        "implicit { field = fn(p: vec3) = dot(p, p) - 0.5 + 0.2 * noise(p * 3), within = sphere { } }");
+    std::string field = "dot(p, p) - 0.5";
+    for (int i = 0; i < 60; ++i) {
+        field += " + 1e-4 * sin(p.x * " + std::to_string(i) + ".5)";
+    }
+    const ir::Scene scene = scene_of("implicit { field = fn(p: vec3) = " + field + ", within = sphere { } }");
     const BlenderSolids made = blender_solids(scene);
     ASSERT_EQ(made.begin()->second.faces.size(), 1U);
     EXPECT_EQ(made.begin()->second.faces[0].formula, BlenderFace::Formula::none);

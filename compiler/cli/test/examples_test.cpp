@@ -34,7 +34,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Example{"lights", "pov,blender"}, Example{"mirrors", "pov,blender"},
                     Example{"stage", "pov,blender"}, Example{"rings", "pov,blender"},
                     Example{"quadrics", "pov,blender"}, Example{"landscape", "pov,blender"},
-                    Example{"textures", "pov,blender"}, Example{"bump", "pov", false},
+                    Example{"textures", "pov,blender"}, Example{"bump", "pov,blender"},
                     Example{"csg", "pov,blender"}, Example{"cutaway", "pov,blender"}, Example{"glass", "pov"},
                     Example{"shapes", "pov,blender"}, Example{"implicit", "pov,blender"},
                     Example{"lattice", "pov,blender"}, Example{"spectra", "pov"},
