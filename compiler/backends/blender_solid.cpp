@@ -279,7 +279,8 @@ private:
                         ? Vec3<double>{}
                         : transform_normal(own_from_world, vector(mesh.normals, mesh.normal_indices[corner]));
                 arrays.normal_indices.push_back(static_cast<std::uint32_t>(normals.size()));
-                normals.push_back(dot(own, own) > 0 ? normalize(own) : flat);
+                // Of any length, so that between them they are what they are in the mesh's own space.
+                normals.push_back(dot(own, own) > 0 ? own : flat);
             }
         }
         append(arrays.positions, positions);

@@ -344,7 +344,7 @@ difference {
     box { material = striped, transform = scale(0.8) }
     torus { major = 0.8, minor = 0.2, material = green }
     intersection {
-      sphere { material = red, transform = scale(0.7) then translate(0, 0.9, 0) }
+      sphere { material = red, transform = scale(0.9, 0.5, 0.7) then rotate_x(20deg) then translate(0, 0.9, 0) }
       plane { normal = (0.1, 1, 0), offset = 1.4, material = blue }
     }
   }

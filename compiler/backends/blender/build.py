@@ -186,7 +186,8 @@ def plane_kinds(o):
 
 
 #: end
-SINGLE = ("plane", "face", "part", "ball", "round", "ring", "quadric", "field")  # kinds with numbers of one object in their nodes
+# kinds with numbers of one object in their nodes
+SINGLE = ("plane", "face", "part", "ball", "round", "ring", "quadric", "field")
 HITS = {
     #: solid
     #: flat
