@@ -287,6 +287,16 @@ plane { normal = (0, 1, 0), offset = -1, material = phong { diffuse = rgb(0.5, 0
               14); // the outlines of meshes
 }
 
+TEST_F(BlenderRender, DrawsNothingOfWhatIsEmpty) {
+    EXPECT_EQ(differing_pixels(scene_of(R"(
+perspective_camera { eye = (1, 3, 7), target = (0, 0.2, 0) }
+point_light { position = (-4, 5, 6) }
+quadric { constant = 0 }
+difference { sphere { }, box { min = (-2, -2, -2), max = (2, 2, 2) } }
+plane { normal = (0, 1, 0), offset = -1 })")),
+              0);
+}
+
 /// A closed mesh with normals at its vertices, from a box or a ball.
 ir::Mesh bent_box(bool is_smooth) {
     ir::MeshArrays mesh;

@@ -265,9 +265,10 @@ def mesh_mesh(o):
 #: end
 #: solid
 def solid_mesh(o):
-    m = SOLIDS[o["name"]]
+    m = dict(points=(), indices=(), normals=(), normal_indices=(), slots=())  # of what is empty
+    m.update(SOLIDS[o["name"]])
     points, faces = np.reshape(m["points"], (-1, 3)), np.reshape(m["indices"], (-1, 3))
-    normals = np.reshape(m["normals"], (-1, 3))[np.ravel(m["normal_indices"])]
+    normals = np.reshape(m["normals"], (-1, 3))[np.ravel(m["normal_indices"]).astype(int)]
     #: boolean
     if "cuts" in o:  # a Boolean interpolates attributes where it cuts, but not Blender's own normals
         mesh = new_mesh(o["name"], points, faces, False, m["slots"])
