@@ -114,6 +114,18 @@ public:
 
     void find() {
         ir::for_each_object(scene_, [&](const ir::Object& object) { add(object); });
+        relate_all();
+    }
+    /// Whether light goes straight through some surface, which takes no bounce.
+    bool let_straight_through() const {
+        return has_panes_ || std::any_of(bodies_.begin(), bodies_.end(), [&](const Body& body) {
+                   const auto around = to_.outside.find(body.object.path);
+                   return body.ior == (around == to_.outside.end() ? 1 : around->second);
+               });
+    }
+
+private:
+    void relate_all() {
         const auto bends = [](const Body& body) { return body.ior != 1; };
         if (!to_.obstacle.empty() || std::none_of(bodies_.begin(), bodies_.end(), bends)) {
             return;
@@ -140,8 +152,6 @@ public:
             }
         }
     }
-
-private:
     void add(const ir::Object& object) {
         const Phong<double>&front = scene_.materials[object.sides.front].phong,
               &back = scene_.materials[object.sides.back].phong;
@@ -152,7 +162,9 @@ private:
         const auto bounds = object_bounds(object.shape, scene_);
         if (bounds && is_closed(object.shape)) {
             bodies_.push_back({object, ior, *bounds});
-        } else if (ior != 1) {
+        } else if (ior == 1) {
+            has_panes_ = true;
+        } else {
             to_.obstacle = fmt::format("`{}` bends rays and encloses nothing", object.path);
         }
     }
@@ -174,6 +186,7 @@ private:
     const ir::Scene& scene_;
     BlenderPaths& to_;
     std::vector<Body> bodies_;
+    bool has_panes_ = false; ///< transparent ones that enclose nothing
 };
 
 // ---- ways ----------------------------------------------------------------------------------------------
@@ -252,10 +265,14 @@ struct Way {
     }
 };
 
-/// Best first: what goes on within a body surely meets its surface again.
-void find_ways(const ir::Scene& scene, BlenderPaths& to) {
+/// Best first: what goes on within a body surely meets its surface again. `each_bends`: every surface on a
+/// way takes a bounce, so that ways end where ours do.
+void find_ways(const ir::Scene& scene, bool each_bends, BlenderPaths& to) {
     const Strengths strengths = strengths_of(scene);
-    const auto longest = static_cast<std::size_t>(std::min(longest_path, scene.settings.depth + 2));
+    constexpr int some_straight = 2; // surfaces on a way that take none
+    const int depth = scene.settings.depth + (each_bends ? 0 : some_straight);
+    const auto longest = static_cast<std::size_t>(std::min(longest_path, depth));
+    const bool ends_alike = each_bends && depth <= longest_path;
     const std::size_t room = std::max<std::size_t>(1, most_layers / layers_per_path(scene));
     const double leaving = chance_outside(scene);
     std::priority_queue<Way> open;
@@ -265,7 +282,7 @@ void find_ways(const ir::Scene& scene, BlenderPaths& to) {
         open.pop();
         to.paths.push_back(best.path);
         if (best.path.size() == longest) {
-            to.cut_off = std::max(to.cut_off, best.share);
+            to.cut_off = std::max(to.cut_off, ends_alike ? 0 : best.share);
             continue;
         }
         open.push(best.on('T', strengths.through, leaving));
@@ -282,9 +299,10 @@ void find_ways(const ir::Scene& scene, BlenderPaths& to) {
 
 BlenderPaths blender_paths(const ir::Scene& scene) {
     BlenderPaths result;
-    Surroundings(scene, result).find();
+    Surroundings surroundings(scene, result);
+    surroundings.find();
     if (result.obstacle.empty()) {
-        find_ways(scene, result);
+        find_ways(scene, !surroundings.let_straight_through(), result);
     }
     return result;
 }

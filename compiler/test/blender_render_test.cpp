@@ -156,6 +156,19 @@ TEST_F(BlenderRender, SeesThroughSurfacesAsWeDo) {
     }
 }
 
+/// What bends light takes a bounce: with one, the inside of a ball is seen, and nothing through it.
+TEST_F(BlenderRender, EndsWaysThroughGlassWhereWeDo) {
+    ir::Scene scene = scene_of(R"(
+world { background = rgb(0.35, 0.5, 0.7) }
+perspective_camera { eye = (1, 2, 6), target = (0, 0.7, 0), fov_y = 38deg }
+point_light { position = (4, 7, 5) }
+fn stripes(s: surface) -> color = rgb(0.5 + 0.4 * sin(3 * s.p.x), 0.5, 0.2)
+disc { radius = 9, material = phong { diffuse = stripes } }
+sphere { center = (0, 1.05, 0), material = glass { ior = 1.5 } })");
+    scene.settings.depth = 1;
+    EXPECT_LE(differing_pixels(scene), 3);
+}
+
 TEST_F(BlenderRender, PanoramasAndTheCornersOfPixelsAgree) {
     ir::Scene scene = scene_of(things_around + "spherical_camera { eye = (0, 1.5, 1), target = (1, 1.2, -1), "
                                                "up = (0.1, 1, 0), fov_x = 300deg, fov_y = 170deg }");
